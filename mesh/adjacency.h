@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <mesh/tet_mesh.h>
+
+namespace tetralux::mesh {
+
+/// Which cell lies behind each face. neighbours[cell][k] is the cell across face k (opposite vertex k),
+/// or `noNeighbour` on the boundary. A face that more than two cells share has no neighbour on any side and is counted.
+struct Adjacency {
+    static constexpr CellIndex noNeighbour = 0xffffffffu;
+    std::vector<std::array<CellIndex, 4>> neighbours;
+    std::uint64_t boundaryFaces = 0;
+    std::uint64_t nonManifoldFaces = 0;  ///< shared by more than two cells
+};
+
+/// Built by face keys in O(cells), in parallel.
+Adjacency buildAdjacency(const std::vector<Tetrahedron>& cells, std::size_t pointCount);
+
+}  // namespace tetralux::mesh

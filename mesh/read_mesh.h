@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// From a file, or the name of a generated field, to a checked mesh.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <mesh/mesh_report.h>
+#include <mesh/tet_mesh.h>
+
+namespace tetralux::mesh {
+
+struct ReadOptions {
+    std::optional<double> time;  ///< for series: the step nearest to it; the first step when not given
+};
+
+struct ReadResult {
+    TetMesh mesh;
+    MeshReport report;
+};
+
+/// Reads `source`: a file of any registered format or a generated field such as "bucky:32".
+/// \throws std::runtime_error naming the source, what is wrong and what would mend it.
+ReadResult readMesh(const std::string& source, const ReadOptions& options = {});
+
+struct ScalarSelection {
+    ScalarMesh mesh;
+    std::string fieldName;              ///< the field taken, with component: "Velocity (magnitude)"
+    std::uint64_t nonFiniteCells = 0;   ///< cells left out because a scalar of theirs is NaN or infinite
+};
+
+/// Takes one scalar of `mesh`: `name` alone (vectors by magnitude), "name:0" or "name:x" (a component), or ""
+/// for the first point field, else the first cell field. Consumes the mesh so that nothing is copied.
+/// Cells with a non-finite scalar are left out and counted in `report`.
+/// \throws std::runtime_error listing the fields there are when the name is wrong or no field is left.
+ScalarSelection selectScalar(TetMesh&& mesh, const std::string& name, MeshReport& report);
+
+}  // namespace tetralux::mesh

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// An engine turns a scene and a camera into an image. To add one: a file that derives from Engine, and one line in
+/// engine_registry.cpp.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <projection/camera.h>
+#include <projection/image.h>
+#include <projection/scene.h>
+
+namespace tetralux::projection {
+
+/// What one frame did, for reports and benchmarks.
+struct FrameReport {
+    std::uint64_t cellsDrawn = 0;
+    std::map<std::string, std::uint64_t> cellsSkipped;       ///< by reason
+    std::map<std::string, double> stageMilliseconds;         ///< wall time by stage: "sort", "setup", "draw", …
+    double frameMilliseconds = 0.0;                          ///< from the new camera to the float image in memory
+    std::uint64_t fragments = 0;                             ///< cell–pixel segments, where the engine counts them
+    std::string orderMethod;                                 ///< how visibility order was found; "none" when not needed
+    std::uint64_t cellsSorted = 0;
+    std::uint64_t orderCycles = 0;                           ///< cells left in cycles of the visibility relation
+    std::uint64_t pixelsRepaired = 0, pixelsWrong = 0;
+};
+
+class Engine {
+public:
+    virtual ~Engine() = default;
+    virtual Image render(const Camera& camera, FrameReport& report) = 0;
+    virtual std::string name() const = 0;      ///< "reference", "gl", …
+    virtual std::string renderer() const = 0;  ///< what does the work: GL_RENDERER, or the instruction set
+    /// What was made once for all frames: "adjacency", "table", …, in milliseconds.
+    virtual std::map<std::string, double> prepareMilliseconds() const { return {}; }
+    /// The table that look-ups use; nullptr when the engine has none.
+    virtual const preint::PreintegrationTable* table() const { return nullptr; }
+};
+
+struct EngineOptions {
+    std::string engine = "auto";   ///< a registered name or "auto"
+    std::string context = "auto";  ///< "auto", "egl", "osmesa": only GL engines read it
+};
+
+std::vector<std::string> engineNames();
+
+/// \throws std::runtime_error listing the names there are, or saying what the engine lacks on this machine.
+std::unique_ptr<Engine> makeEngine(const Scene& scene, const EngineOptions& options);
+
+}  // namespace tetralux::projection

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace tetralux::projection {
+
+/// Linear premultiplied RGBA over nothing, row 0 at the top.
+struct Image {
+    int width = 0, height = 0;
+    std::vector<glm::vec4> pixels;  ///< width·height, row by row
+
+    Image() = default;
+    Image(int w, int h) : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
+    glm::vec4& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]; }
+    const glm::vec4& at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]; }
+};
+
+/// Differences over all four channels of all pixels.
+struct ImageDifference {
+    double rmse = 0.0, max = 0.0;
+    double percentile999 = 0.0;  ///< 99.9th percentile of a pixel's largest channel difference
+    double psnr = 0.0;           ///< decibels for peak 1; infinite for equal images
+};
+
+/// \throws std::runtime_error when the sizes differ.
+ImageDifference compareImages(const Image& a, const Image& b);
+
+/// The image over a colour: premultiplied composition, alpha becomes 1.
+void putUnder(Image& image, const glm::vec3& background);
+
+/// Writes `.png` (8 bits, over black where it is not opaque) or `.exr` (32-bit float RGBA) by extension. The file appears whole or not at
+/// all: it is written beside and renamed. \throws std::runtime_error
+void writeImage(const Image& image, const std::string& path);
+
+/// Reads what writeImage writes (8-bit PNG becomes [0, 1]). \throws std::runtime_error
+Image readImage(const std::string& path);
+
+}  // namespace tetralux::projection

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <mesh/tet_mesh.h>
+#include <preint/preintegration_table.h>
+#include <preint/transfer_function.h>
+#include <shading/lights.h>
+
+namespace tetralux::projection {
+
+enum class Mode { Standard, ScaleInvariant, Mip, Average, FirstHit };
+
+/// The integral that a mode's segments use (first-hit asks for opacity > 0 by the standard one).
+preint::Integral integralOf(Mode mode);
+
+struct RenderSettings {
+    Mode mode = Mode::Standard;
+    shading::ShadingSettings shading;
+    preint::TableOptions table;
+    int threads = 0;  ///< 0: all
+};
+
+/// What is drawn; engines keep what they derive from it from frame to frame.
+struct Scene {
+    std::shared_ptr<const mesh::ScalarMesh> mesh;
+    preint::TransferFunction transferFunction;  ///< absolute (preint::resolved)
+    RenderSettings settings;
+};
+
+}  // namespace tetralux::projection

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <mesh/tet_mesh.h>
+
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+namespace tetralux::mesh {
+
+double BoundingBox::diagonal() const { return glm::length(high - low); }
+
+double sixVolumes(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
+    return glm::dot(glm::cross(b - a, c - a), d - a);
+}
+
+BoundingBox usedBounds(const std::vector<glm::dvec3>& positions, const std::vector<Tetrahedron>& cells) {
+    if (cells.empty()) {
+        return {};
+    }
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const BoundingBox nothing{glm::dvec3(infinity), glm::dvec3(-infinity)};
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, cells.size(), 16384), nothing,
+        [&](const tbb::blocked_range<std::size_t>& range, BoundingBox box) {
+            for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                for (const PointIndex p : cells[i]) {
+                    box.low = glm::min(box.low, positions[p]);
+                    box.high = glm::max(box.high, positions[p]);
+                }
+            }
+            return box;
+        },
+        [](const BoundingBox& a, const BoundingBox& b) {
+            return BoundingBox{glm::min(a.low, b.low), glm::max(a.high, b.high)};
+        });
+}
+
+glm::dvec3 cellGradient(const ScalarMesh& mesh, CellIndex cell) {
+    if (mesh.association == Association::Cell) {
+        return glm::dvec3(0.0);
+    }
+    const Tetrahedron& t = mesh.cells[cell];
+    const glm::dvec3 origin = mesh.positions[t[0]];
+    const glm::dvec3 b = mesh.positions[t[1]] - origin;
+    const glm::dvec3 c = mesh.positions[t[2]] - origin;
+    const glm::dvec3 d = mesh.positions[t[3]] - origin;
+    const double s0 = mesh.scalars[t[0]];
+    // The dual basis of the edges b, c, d: g·b = s1 − s0 and so on.
+    const glm::dvec3 bxc = glm::cross(b, c);
+    const glm::dvec3 sum = (mesh.scalars[t[1]] - s0) * glm::cross(c, d) + (mesh.scalars[t[2]] - s0) * glm::cross(d, b) +
+                           (mesh.scalars[t[3]] - s0) * bxc;
+    return sum / glm::dot(bxc, d);
+}
+
+}  // namespace tetralux::mesh

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <mesh/procedural_field.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include <mesh/read_mesh.h>
+
+namespace tetralux::mesh {
+namespace {
+
+constexpr int magnitude = -1;
+
+struct Choice {
+    std::size_t field = 0;
+    int component = magnitude;  ///< or the component taken
+};
+
+std::string listOfFields(const TetMesh& mesh) {
+    std::string list;
+    for (const Field& field : mesh.fields) {
+        const char* where = field.association == Association::Point ? "points" : "cells";
+        const std::string shape = field.components == 1 ? "" : fmt::format(", {} components", field.components);
+        list += fmt::format("{}'{}' ({}{})", list.empty() ? "" : ", ", field.name, where, shape);
+    }
+    return list;
+}
+
+/// Position of the field called `name`, point fields first; fields.size() if there is none.
+std::size_t findField(const std::vector<Field>& fields, const std::string& name) {
+    for (const Association association : {Association::Point, Association::Cell}) {
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+            if (fields[i].association == association && fields[i].name == name) {
+                return i;
+            }
+        }
+    }
+    return fields.size();
+}
+
+std::size_t firstField(const std::vector<Field>& fields) {
+    const auto onPoints = [](const Field& field) { return field.association == Association::Point; };
+    const auto found = std::find_if(fields.begin(), fields.end(), onPoints);
+    return found == fields.end() ? 0 : static_cast<std::size_t>(found - fields.begin());
+}
+
+/// "0", "1", … or "x", "y", "z" as a component number; nothing that is no such name.
+std::optional<int> parseComponent(const std::string& text) {
+    if (text.size() == 1 && text[0] >= 'x' && text[0] <= 'z') {
+        return text[0] - 'x';
+    }
+    int component = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), component);
+    if (error != std::errc() || stop != text.data() + text.size() || component < 0) {
+        return std::nullopt;
+    }
+    return component;
+}
+
+/// The whole of `name` is tried first, so that a field whose name has a colon can be chosen.
+Choice chooseField(const TetMesh& mesh, const std::string& name) {
+    if (mesh.fields.empty()) {
+        throw std::runtime_error("the mesh has no field to show; give a mesh with values on its points or cells");
+    }
+    if (name.empty()) {
+        return {firstField(mesh.fields), magnitude};
+    }
+    if (const std::size_t whole = findField(mesh.fields, name); whole < mesh.fields.size()) {
+        return {whole, magnitude};
+    }
+    if (const std::size_t colon = name.rfind(':'); colon != std::string::npos) {
+        const std::size_t found = findField(mesh.fields, name.substr(0, colon));
+        const std::optional<int> component = parseComponent(name.substr(colon + 1));
+        if (found < mesh.fields.size()) {
+            const Field& field = mesh.fields[found];
+            if (component && *component < field.components) {
+                return {found, *component};
+            }
+            throw std::runtime_error(fmt::format("field '{}' has no component '{}'; it has {} (0 to {})", field.name,
+                                                 name.substr(colon + 1), field.components, field.components - 1));
+        }
+    }
+    throw std::runtime_error(fmt::format("no field named '{}'; the mesh has {}", name, listOfFields(mesh)));
+}
+
+/// Euclidean norm that neither overflows nor vanishes where the result is representable.
+double norm(const double* values, int count) {
+    double largest = 0.0;
+    for (int i = 0; i < count; ++i) {
+        if (!std::isfinite(values[i])) {
+            return values[i];
+        }
+        largest = std::max(largest, std::abs(values[i]));
+    }
+    if (largest == 0.0) {
+        return 0.0;
+    }
+    double sum = 0.0;
+    for (int i = 0; i < count; ++i) {
+        const double ratio = values[i] / largest;
+        sum += ratio * ratio;
+    }
+    return largest * std::sqrt(sum);
+}
+
+/// One value per point or cell, taken out of `field` in place.
+std::vector<double> takeScalars(Field& field, int component) {
+    if (field.components > 1) {
+        const std::size_t components = static_cast<std::size_t>(field.components);
+        const std::size_t count = field.values.size() / components;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double* tuple = field.values.data() + i * components;
+            field.values[i] = component == magnitude ? norm(tuple, field.components) : tuple[component];
+        }
+        field.values.resize(count);
+    }
+    return std::move(field.values);
+}
+
+std::string fieldTitle(const Field& field, int component) {
+    if (field.components == 1) {
+        return field.name;
+    }
+    if (component == magnitude) {
+        return field.name + " (magnitude)";
+    }
+    return field.components <= 3 ? fmt::format("{} ({})", field.name, "xyz"[component])
+                                 : fmt::format("{} ({})", field.name, component);
+}
+
+bool hasFiniteScalars(const ScalarMesh& mesh, std::size_t cell) {
+    if (mesh.association == Association::Cell) {
+        return std::isfinite(mesh.scalars[cell]);
+    }
+    const Tetrahedron& t = mesh.cells[cell];
+    return std::isfinite(mesh.scalars[t[0]]) && std::isfinite(mesh.scalars[t[1]]) && std::isfinite(mesh.scalars[t[2]]) &&
+           std::isfinite(mesh.scalars[t[3]]);
+}
+
+/// Leaves out cells with a NaN or infinite scalar; the order of the others stays. \returns how many.
+std::uint64_t dropNonFiniteCells(ScalarMesh& mesh, MeshReport& report) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
+        if (!hasFiniteScalars(mesh, i)) {
+            report.add(Defect::NonFiniteScalar, i);
+            continue;
+        }
+        mesh.cells[kept] = mesh.cells[i];
+        if (mesh.association == Association::Cell) {
+            mesh.scalars[kept] = mesh.scalars[i];
+        }
+        ++kept;
+    }
+    const std::uint64_t dropped = mesh.cells.size() - kept;
+    if (dropped > 0) {
+        mesh.cells.resize(kept);
+        if (mesh.association == Association::Cell) {
+            mesh.scalars.resize(kept);
+        }
+        report.skipped[defectName(Defect::NonFiniteScalar)] += dropped;
+    }
+    return dropped;
+}
+
+void findScalarRange(ScalarMesh& mesh) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    const auto include = [&](double s) {
+        low = std::min(low, s);
+        high = std::max(high, s);
+    };
+    if (mesh.association == Association::Cell) {
+        std::for_each(mesh.scalars.begin(), mesh.scalars.end(), include);
+    } else {
+        for (const Tetrahedron& cell : mesh.cells) {
+            for (const PointIndex p : cell) {
+                include(mesh.scalars[p]);
+            }
+        }
+    }
+    mesh.scalarMin = low;
+    mesh.scalarMax = high;
+}
+
+}  // namespace
+
+ScalarSelection selectScalar(TetMesh&& mesh, const std::string& name, MeshReport& report) {
+    const Choice choice = chooseField(mesh, name);
+    Field& field = mesh.fields[choice.field];
+    ScalarSelection selection;
+    selection.fieldName = fieldTitle(field, choice.component);
+    selection.mesh.association = field.association;
+    selection.mesh.scalars = takeScalars(field, choice.component);
+    selection.mesh.positions = std::move(mesh.positions);
+    selection.mesh.cells = std::move(mesh.cells);
+    mesh.fields.clear();
+    if (selection.mesh.cells.empty()) {
+        throw std::runtime_error("the mesh has no cell to show; give a mesh with at least one solid cell");
+    }
+    selection.nonFiniteCells = dropNonFiniteCells(selection.mesh, report);
+    if (selection.mesh.cells.empty()) {
+        throw std::runtime_error(fmt::format("field '{}' is NaN or infinite in every cell; choose another with --scalar",
+                                             selection.fieldName));
+    }
+    findScalarRange(selection.mesh);
+    selection.mesh.bounds = usedBounds(selection.mesh.positions, selection.mesh.cells);
+    return selection;
+}
+
+}  // namespace tetralux::mesh

@@ -37,6 +37,10 @@ void putUnder(Image& image, const glm::vec3& background);
 /// all: it is written beside and renamed. \throws std::runtime_error
 void writeImage(const Image& image, const std::string& path);
 
+/// Finds out before any work whether writeImage could write `path`: its ending, its folder, the right to write there.
+/// \throws std::runtime_error
+void checkImagePath(const std::string& path);
+
 /// Reads what writeImage writes (8-bit PNG becomes [0, 1]). \throws std::runtime_error
 Image readImage(const std::string& path);
 

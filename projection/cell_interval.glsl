@@ -4,14 +4,14 @@
 // double (tests) and for SIMD lanes. `real` varies from pixel to pixel, `cell_real` is the same for a whole cell; in
 // GLSL both are float.
 //
-// A cell is described relative to its centroid c (cell_setup.h derives all of this in double precision):
+// A cell is described relative to a point c, as a rule its centroid (cell_setup.h derives all of this in double precision):
 //
 //   dx, dy   pixel offsets from the projection of c
-//   rho      relative nearness: z_c/z − 1 in perspective, (z_c − z)/L in orthographic views. 0 at the depth of c, larger is
-//            nearer. Every face plane is affine in (dx, dy): rho_i = plane.x + plane.y·dx + plane.z·dy. So a face that
+//   rho      relative nearness: z_c/z − 1 in perspective, (z_c − z)/|z_c| in orthographic views. 0 at the depth of c, larger
+//            is nearer. Every face plane is affine in (dx, dy): rho_i = plane.x + plane.y·dx + plane.z·dy. So a face that
 //            shows its outside to the eye bounds rho from above, one that shows its inside bounds it from below, and nothing is divided by
 //            the thin angle of a silhouette.
-//   scale    z_c in perspective, L in orthographic views, in scene length units
+//   scale    z_c, in scene lengths
 //
 // All differences are taken near the cell, so float keeps its relative precision at any distance or offset of the mesh.
 
@@ -23,18 +23,18 @@ TETRALUX_GLSL_FUNCTION real planeRho(cell_real constant, cell_real perX, cell_re
 // Length of the segment between two values of rho, in scene length units, for a ray direction of length `rayLength`
 // per unit depth (1 in orthographic views).
 TETRALUX_GLSL_FUNCTION real segmentLengthPerspective(cell_real scale, real rhoIn, real rhoOut, real rayLength) {
-    return scale * rayLength * (rhoIn - rhoOut) / ((real(1.0) + rhoIn) * (real(1.0) + rhoOut));
+    return scale * rayLength * ((rhoIn - rhoOut) / (real(1.0) + rhoIn)) / (real(1.0) + rhoOut);
 }
 TETRALUX_GLSL_FUNCTION real segmentLengthOrthographic(cell_real scale, real rhoIn, real rhoOut) {
-    return scale * (rhoIn - rhoOut);
+    return abs(real(scale)) * (rhoIn - rhoOut);
 }
 
-// Scalar at rho: centroid value plus gradient, kept within the cell's own range, which rounding may leave in slivers.
-TETRALUX_GLSL_FUNCTION real scalarPerspective(cell_real atCentroid, cell_real perX, cell_real perY, cell_real perRho,
+// Scalar at rho: value at c plus gradient, kept within the cell's own range, which rounding may leave in slivers.
+TETRALUX_GLSL_FUNCTION real scalarPerspective(cell_real atReference, cell_real perX, cell_real perY, cell_real perRho,
                                               real dx, real dy, real rho, cell_real low, cell_real high) {
-    return clamp(atCentroid + (perX * dx + perY * dy + perRho * rho) / (real(1.0) + rho), real(low), real(high));
+    return clamp(atReference + (perX * dx + perY * dy + perRho * rho) / (real(1.0) + rho), real(low), real(high));
 }
-TETRALUX_GLSL_FUNCTION real scalarOrthographic(cell_real atCentroid, cell_real perX, cell_real perY, cell_real perRho,
+TETRALUX_GLSL_FUNCTION real scalarOrthographic(cell_real atReference, cell_real perX, cell_real perY, cell_real perRho,
                                                real dx, real dy, real rho, cell_real low, cell_real high) {
-    return clamp(atCentroid + perX * dx + perY * dy + perRho * rho, real(low), real(high));
+    return clamp(atReference + perX * dx + perY * dy + perRho * rho, real(low), real(high));
 }

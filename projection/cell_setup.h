@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -29,20 +30,27 @@ SceneUnits sceneUnits(const mesh::ScalarMesh& mesh);
 preint::TransferFunction inSceneUnits(const preint::TransferFunction& function, const SceneUnits& units,
                                       preint::Integral integral);
 
-/// One projected cell. Std430 layout of six vec4; the shader's struct in gl_cell.vert mirrors it.
+/// Fast engines sample this much beside the pixel's centre (pixels): a ray that would run exactly within faces (views
+/// along the axes of a grid) then runs beside them, in the same cells for every engine. The picture changes by less
+/// than 1e-5 of its contrast from pixel to pixel. It is part of CellRecord's fractions; engines need not add it.
+inline constexpr glm::dvec2 sampleShift{0x1p-14, 0x1p-15};
+
+/// One projected cell. Std430 layout of six vec4; the shader's struct mirrors it. The reference point c is the
+/// centroid, or for cells that reach behind the eye a point of the visible rectangle at half their largest depth.
 struct CellRecord {
     float plane[4][3];      ///< rho of face k = plane[k][0] + plane[k][1]·dx + plane[k][2]·dy
     float frontMask;        ///< Σ 2^k over faces that bound rho from above (0 … 15), a whole number
-    float pixelX, pixelY;   ///< whole pixel nearest to the projected centroid
+    float pixelX, pixelY;   ///< whole pixel nearest to the projection of c
     float fractionX, fractionY;  ///< dx = (x − pixelX) − fractionX, likewise dy
-    float scalar;           ///< at the centroid, scene units
+    float scalar;           ///< at c, scene units
     float scalarPerX, scalarPerY, scalarPerRho;
     float scalarLow, scalarHigh;  ///< over the cell's vertices, scene units
-    float scale;            ///< z_c or L, scene lengths
+    float scale;            ///< z_c, scene lengths; orthographic: may be negative, L = |scale|
 };
 static_assert(sizeof(CellRecord) == 24 * sizeof(float));
 
-/// rho that stands for "at the eye" where a cell holds the eye (no face bounds it from above).
+/// Largest rho, that of the eye: where no face bounds rho from above the eye is in the cell. Orthographic views start
+/// at the eye's plane instead, where rho is the sign of `scale`: bound rho by that.
 inline constexpr float rhoAtEye = 1e30f;
 
 /// The gradient of one cell for silhouettes and light: unit normal g/|g| (zero if g = 0) in world space, and |g| in
@@ -71,8 +79,8 @@ public:
     /// when there are none. A cell that reaches behind the eye's plane covers the rectangle of its part in front.
     SkipReason bounds(mesh::CellIndex cell, PixelRect& rect) const;
 
-    /// The record of a cell that `bounds` does not skip.
-    CellRecord record(mesh::CellIndex cell) const;
+    /// The record of a cell that `bounds` does not skip, given the rectangle from there.
+    CellRecord record(mesh::CellIndex cell, const PixelRect& rect) const;
 
     /// The cell's projected corners in pixel coordinates when all four lie in front of the eye; nothing otherwise.
     std::optional<std::array<glm::dvec2, 4>> corners(mesh::CellIndex cell) const;
@@ -84,9 +92,17 @@ public:
     CellGradient gradient(mesh::CellIndex cell) const;
 
 private:
+    struct LinearForms;  // barycentric coordinates as functions of camera space
+    LinearForms linearForms(mesh::CellIndex cell) const;
+    double eyeSide(const mesh::Tetrahedron& cell, int face) const;
+    glm::dvec2 pixelOf(const glm::dvec3& point) const;
+
     const mesh::ScalarMesh& mesh_;
     SceneUnits units_;
     CameraFrame frame_;
+    /// Per mesh point, relative to the eye: x and y in pixels times depth (pixels when orthographic), z the depth. The ray
+    /// of pixel (x, y) is z·(x − centre.x, y − centre.y, 1), or (x − centre.x, y − centre.y, z).
+    std::vector<glm::dvec3> cameraPoints_;
 };
 
 }  // namespace tetralux::projection

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <projection/engine.h>
+#include <projection/reference_engine.h>
+
+namespace tetralux::projection {
+
+namespace {
+
+struct RegisteredEngine {
+    const char* name;
+    std::unique_ptr<Engine> (*make)(const Scene&, const EngineOptions&);
+};
+
+// The first one is what "auto" takes.
+constexpr std::array engines{
+    RegisteredEngine{"reference", makeReferenceEngine},
+};
+
+}  // namespace
+
+std::vector<std::string> engineNames() {
+    std::vector<std::string> names;
+    for (const auto& engine : engines) names.emplace_back(engine.name);
+    return names;
+}
+
+std::unique_ptr<Engine> makeEngine(const Scene& scene, const EngineOptions& options) {
+    if (options.engine == "auto") return engines.front().make(scene, options);
+    for (const auto& engine : engines)
+        if (options.engine == engine.name) return engine.make(scene, options);
+    throw std::runtime_error(fmt::format("engine '{}': there is no such engine; take one of auto, {}", options.engine,
+                                         fmt::join(engineNames(), ", ")));
+}
+
+}  // namespace tetralux::projection

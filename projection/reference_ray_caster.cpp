@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/reference_ray_caster.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <shading/cell_shading.h>
+
+namespace tetralux::projection {
+
+namespace {
+
+/// Rays run this much beside the pixel's centre (pixels), so that none lies exactly within faces of a grid that is aligned
+/// with the view. It moves the picture by some 1e-10.
+constexpr double rayShiftX = 0x1p-32, rayShiftY = 0x1p-33;
+
+/// A point of the mesh seen along a ray: offset across the ray (two axes) and distance along it.
+struct RayPoint {
+    double x, y, t;
+};
+
+/// Two axes across the ray.
+struct RayFrame {
+    glm::dvec3 origin, direction, across, other;
+
+    explicit RayFrame(const Ray& ray) : origin(ray.origin), direction(ray.direction) {
+        const glm::dvec3 a = glm::abs(direction);
+        const glm::dvec3 axis = a.x <= a.y && a.x <= a.z ? glm::dvec3(1, 0, 0)
+                                : a.y <= a.z             ? glm::dvec3(0, 1, 0)
+                                                         : glm::dvec3(0, 0, 1);
+        across = glm::normalize(glm::cross(direction, axis));
+        other = glm::cross(direction, across);
+    }
+
+    RayPoint see(const glm::dvec3& point) const {
+        const glm::dvec3 p = point - origin;
+        return {glm::dot(p, across), glm::dot(p, other), glm::dot(p, direction)};
+    }
+};
+
+/// Which side of the ray the edge a → b passes, times twice the area with the ray's foot. Swapping a and b flips the sign
+/// exactly, so that all cells around an edge agree on the side (Platis & Theoharis 2003).
+double edgeSide(const RayPoint& a, const RayPoint& b) { return a.x * b.y - a.y * b.x; }
+
+/// A zero side counts as positive in the order of the point numbers: one answer for all cells at the edge.
+bool sideIsPositive(double side, mesh::PointIndex a, mesh::PointIndex b) { return side > 0 || (side == 0 && a < b); }
+
+/// Cuts the ray by one cell. Crossing points and their scalars are convex combinations of face corners: both cells of a
+/// face get the same numbers, thin cells lose nothing.
+std::optional<RaySegment> cut(const RayFrame& ray, const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {
+    const mesh::Tetrahedron& points = mesh.cells[cell];
+    std::array<RayPoint, 4> v;
+    for (std::size_t k = 0; k < 4; ++k) v[k] = ray.see(mesh.positions[points[k]]);
+
+    RaySegment segment{0, 0, 0, 0, cell};
+    bool entered = false, left = false;
+    for (int face = 0; face < 4; ++face) {
+        const auto& corners = mesh::faceVertices[static_cast<std::size_t>(face)];
+        std::array<double, 3> weight;
+        int positive = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto a = static_cast<std::size_t>(corners[(k + 1) % 3]), b = static_cast<std::size_t>(corners[(k + 2) % 3]);
+            weight[k] = edgeSide(v[a], v[b]);
+            positive += sideIsPositive(weight[k], points[a], points[b]) ? 1 : 0;
+        }
+        if (positive != 0 && positive != 3) continue;
+        const double sum = weight[0] + weight[1] + weight[2];
+        if (sum == 0) continue;  // the face is a line to this ray
+        double t = 0, scalar = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            t += weight[k] / sum * v[static_cast<std::size_t>(corners[k])].t;
+            scalar += weight[k] / sum * mesh.scalarAt(cell, corners[k]);
+        }
+        // across × other = direction, so a face that shows its outside to the eye has a negative area
+        if (positive == 0) {
+            segment.tIn = t;
+            segment.scalarIn = scalar;
+            entered = true;
+        } else {
+            segment.tOut = t;
+            segment.scalarOut = scalar;
+            left = true;
+        }
+    }
+    if (!entered || !left || !(segment.tOut > segment.tIn) || !(segment.tOut > 0)) return std::nullopt;
+    if (segment.tIn < 0) {  // the ray starts inside
+        segment.scalarIn = glm::mix(segment.scalarIn, segment.scalarOut, -segment.tIn / (segment.tOut - segment.tIn));
+        segment.tIn = 0;
+    }
+    return segment;
+}
+
+}  // namespace
+
+/// One rendering of one camera: the image is halved until one pixel is left, the cells with it.
+struct ReferenceRayCaster::Pass {
+    const ReferenceRayCaster& caster;
+    const CameraFrame frame;
+    Image& image;
+    std::vector<bool> wanted;  // empty: all pixels
+    std::vector<glm::dvec3> points;  // camera space: pixels·depth (or pixels when orthographic) twice, and depth
+    std::vector<std::atomic<bool>> met;
+    std::atomic<std::uint64_t> segmentCount{0}, overlapCount{0};
+
+    Pass(const ReferenceRayCaster& c, const Camera& camera, Image& target)
+        : caster(c), frame(cameraFrame(camera)), image(target), met(c.scene_.mesh->cells.size()) {
+        const mesh::ScalarMesh& mesh = *caster.scene_.mesh;
+        const double pixel = glm::length(frame.perPixelRight);
+        points.resize(mesh.positions.size());
+        tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+            const glm::dvec3 p = mesh.positions[i] - frame.eye;
+            points[i] = {glm::dot(p, frame.right) / pixel, -glm::dot(p, frame.up) / pixel, glm::dot(p, frame.forward)};
+        });
+    }
+
+    /// Whether a cell reaches beyond the line `position` of the image (pixels from the axis) on the side `sign`. The line and the eye
+    /// span a plane; this holds also for what lies behind the eye.
+    bool reaches(mesh::CellIndex cell, int axis, double position, double sign) const {
+        return anyCorner(cell, [&](const glm::dvec3& p) {
+            return sign * (p[axis] - position * (frame.orthographic ? 1.0 : p.z)) >= 0;
+        });
+    }
+
+    template <class Predicate>
+    bool anyCorner(mesh::CellIndex cell, Predicate predicate) const {
+        const mesh::Tetrahedron& corners = caster.scene_.mesh->cells[cell];
+        return std::any_of(corners.begin(), corners.end(), [&](mesh::PointIndex p) { return predicate(points[p]); });
+    }
+
+    std::vector<mesh::CellIndex> beyond(const std::vector<mesh::CellIndex>& cells, int axis, double position,
+                                        double sign) const {
+        std::vector<mesh::CellIndex> result;
+        std::copy_if(cells.begin(), cells.end(), std::back_inserter(result),
+                     [&](mesh::CellIndex cell) { return reaches(cell, axis, position, sign); });
+        return result;
+    }
+
+    bool anyWanted(int x0, int y0, int x1, int y1) const {
+        if (wanted.empty()) return true;
+        for (int y = y0; y < y1; ++y)
+            for (int x = x0; x < x1; ++x)
+                if (wanted[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x)])
+                    return true;
+        return false;
+    }
+
+    void renderAll() {
+        std::vector<mesh::CellIndex> cells;
+        for (mesh::CellIndex cell = 0; cell < met.size(); ++cell)
+            if (anyCorner(cell, [](const glm::dvec3& p) { return p.z > 0; })) cells.push_back(cell);
+        const double halfPixel = 0.5;
+        cells = beyond(cells, 0, -halfPixel - frame.centre.x, 1);
+        cells = beyond(cells, 0, frame.width - halfPixel - frame.centre.x, -1);
+        cells = beyond(cells, 1, -halfPixel - frame.centre.y, 1);
+        cells = beyond(cells, 1, frame.height - halfPixel - frame.centre.y, -1);
+        renderBlock(0, 0, frame.width, frame.height, std::move(cells));
+    }
+
+    /// Pixels [x0, x1) × [y0, y1), which only `cells` can meet.
+    void renderBlock(int x0, int y0, int x1, int y1, std::vector<mesh::CellIndex> cells) {
+        if (cells.empty() || !anyWanted(x0, y0, x1, y1)) return;
+        if (x1 - x0 == 1 && y1 - y0 == 1) {
+            renderPixel(x0, y0, cells);
+            return;
+        }
+        const int axis = x1 - x0 >= y1 - y0 ? 0 : 1;
+        const int middle = axis == 0 ? (x0 + x1) / 2 : (y0 + y1) / 2;
+        const double line = middle - 0.5 - frame.centre[axis];
+        auto low = [&] {
+            renderBlock(x0, y0, axis == 0 ? middle : x1, axis == 1 ? middle : y1, beyond(cells, axis, line, -1));
+        };
+        auto high = [&] {
+            renderBlock(axis == 0 ? middle : x0, axis == 1 ? middle : y0, x1, y1, beyond(cells, axis, line, 1));
+        };
+        if ((x1 - x0) * (y1 - y0) > 256) {
+            tbb::parallel_invoke(low, high);
+        } else {
+            low();
+            high();
+        }
+    }
+
+    void renderPixel(int x, int y, const std::vector<mesh::CellIndex>& cells) {
+        const Ray ray = pixelRay(frame, x + rayShiftX, y + rayShiftY);
+        const RayFrame rayFrame(ray);
+        std::vector<RaySegment> segments;
+        for (mesh::CellIndex cell : cells)
+            if (auto segment = cut(rayFrame, *caster.scene_.mesh, cell)) {
+                segments.push_back(*segment);
+                met[cell].store(true, std::memory_order_relaxed);
+            }
+        image.at(x, y) = glm::vec4(caster.composite(ray, segments));
+        segmentCount += segments.size();
+        for (std::size_t i = 1; i < segments.size(); ++i)
+            if (segments[i].tIn < segments[i - 1].tOut - 1e-9 * (segments[i - 1].tOut - segments[i - 1].tIn) -
+                                      1e-12 * segments[i - 1].tOut)
+                ++overlapCount;
+    }
+};
+
+ReferenceRayCaster::ReferenceRayCaster(const Scene& scene) : scene_(scene), exact_(scene.transferFunction) {}
+
+Image ReferenceRayCaster::render(const Camera& camera, RayCastCounts& counts) const {
+    Image image(camera.width, camera.height);
+    Pass pass(*this, camera, image);
+    pass.renderAll();
+    counts.segments = pass.segmentCount;
+    counts.overlaps = pass.overlapCount;
+    counts.cellsDrawn = static_cast<std::uint64_t>(
+        std::count_if(pass.met.begin(), pass.met.end(), [](const std::atomic<bool>& m) { return m.load(); }));
+    return image;
+}
+
+void ReferenceRayCaster::renderPixels(const Camera& camera, const std::vector<std::uint32_t>& pixels,
+                                      Image& image) const {
+    if (pixels.empty()) return;
+    Pass pass(*this, camera, image);
+    pass.wanted.resize(image.pixels.size());
+    for (std::uint32_t pixel : pixels) {
+        pass.wanted[pixel] = true;
+        image.pixels[pixel] = glm::vec4(0);
+    }
+    pass.renderAll();
+}
+
+std::vector<RaySegment> ReferenceRayCaster::segmentsOfPixel(const Camera& camera, int x, int y) const {
+    const RayFrame ray(pixelRay(cameraFrame(camera), x + rayShiftX, y + rayShiftY));
+    std::vector<RaySegment> segments;
+    for (std::size_t cell = 0; cell < scene_.mesh->cells.size(); ++cell)
+        if (auto segment = cut(ray, *scene_.mesh, static_cast<mesh::CellIndex>(cell))) segments.push_back(*segment);
+    std::sort(segments.begin(), segments.end(), [](const auto& a, const auto& b) { return a.tIn < b.tIn; });
+    return segments;
+}
+
+namespace {
+
+/// Premultiplied colour and transmittance gathered front to back.
+struct Gathered {
+    glm::dvec3 color{0};
+    double transmittance = 1.0;
+
+    void add(const glm::dvec3& premultiplied, double opacity) {
+        color += transmittance * premultiplied;
+        transmittance *= 1.0 - opacity;
+    }
+    glm::dvec4 pixel() const { return {color, 1.0 - transmittance}; }
+};
+
+/// Colour and opacity of one segment after silhouette and light.
+struct Shaded {
+    glm::dvec3 color;
+    double opacity;
+};
+
+Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& ray, const RaySegment& segment) {
+    const auto& shading = scene.settings.shading;
+    const preint::Integral integral = integralOf(scene.settings.mode);
+    const double length = segment.tOut - segment.tIn;
+    const auto whole = exact.segment(segment.scalarIn, segment.scalarOut, length, integral);
+    if (!shading.needsGradient()) return {whole.color, whole.opacity()};
+
+    const glm::dvec3 gradient = mesh::cellGradient(*scene.mesh, segment.cell);
+    const double magnitude = glm::length(gradient);
+    const glm::dvec3 normal = magnitude > 0 ? gradient / magnitude : glm::dvec3(0);
+    const double variation = std::abs(segment.scalarOut - segment.scalarIn);
+
+    double depth = whole.opticalDepth;
+    glm::dvec3 meanColor = whole.opacity() > 0 ? whole.color / whole.opacity() : glm::dvec3(0);
+    if (shading.silhouette && magnitude > 0) {
+        const double cosine = glm::dot(normal, ray.direction);
+        double smoothTimesK = 0.0, other = whole.opticalDepth;
+        if (integral == preint::Integral::ScaleInvariant) {
+            const double smooth =
+                exact.smoothSegment(segment.scalarIn, segment.scalarOut, length, integral).opticalDepth;
+            const double meanExtinction =
+                variation > 0 ? smooth / variation : exact.function().extinctionAt(segment.scalarIn);
+            smoothTimesK = meanExtinction * magnitude * length;
+            other = std::isinf(depth) ? depth : std::max(0.0, depth - smooth);
+            if (variation == 0) meanColor = exact.function().colorAt(segment.scalarIn);
+        }
+        depth = glsl::silhouetteDepth(smoothTimesK, other, cosine);
+    }
+    const double opacity = -std::expm1(-depth);
+    if (!shading.lit()) return {meanColor * opacity, opacity};
+
+    glm::dvec3 light = shading.ambient * meanColor;
+    if (magnitude > 0) {
+        const double scalarStep = segment.scalarIn - segment.scalarOut;
+        const double side = scalarStep > 0 ? 1.0 : scalarStep < 0 ? -1.0 : 0.0;
+        for (const auto& source : shading.lights)
+            light += glsl::lightTerm(meanColor, normal, -ray.direction, source.towards, side,
+                                     shading.transmission ? 1.0 - opacity : 0.0, shading.exponent);
+    }
+    return {light * opacity, opacity};
+}
+
+}  // namespace
+
+glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, std::vector<RaySegment>& segments) const {
+    if (segments.empty()) return glm::dvec4(0);
+    std::sort(segments.begin(), segments.end(), [](const RaySegment& a, const RaySegment& b) {
+        return a.tIn != b.tIn ? a.tIn < b.tIn : a.tOut < b.tOut;
+    });
+    const preint::TransferFunction& function = exact_.function();
+    switch (scene_.settings.mode) {
+        case Mode::Standard:
+        case Mode::ScaleInvariant: {
+            Gathered gathered;
+            for (const RaySegment& segment : segments) {
+                const Shaded shaded = shade(exact_, scene_, ray, segment);
+                gathered.add(shaded.color, shaded.opacity);
+            }
+            return gathered.pixel();
+        }
+        case Mode::Mip: {
+            double largest = -std::numeric_limits<double>::infinity();
+            for (const RaySegment& segment : segments)
+                largest = std::max({largest, segment.scalarIn, segment.scalarOut});
+            return {function.colorAt(largest), 1.0};
+        }
+        case Mode::Average: {
+            double sum = 0, length = 0;
+            for (const RaySegment& segment : segments) {
+                const double l = segment.tOut - segment.tIn;
+                sum += (0.5 * segment.scalarIn + 0.5 * segment.scalarOut) * l;
+                length += l;
+            }
+            return {function.colorAt(sum / length), 1.0};
+        }
+        case Mode::FirstHit:
+            for (const RaySegment& segment : segments) {
+                const Shaded shaded = shade(exact_, scene_, ray, segment);
+                if (shaded.opacity > 0) return {shaded.color / shaded.opacity, 1.0};
+            }
+            return glm::dvec4(0);
+    }
+    return glm::dvec4(0);
+}
+
+}  // namespace tetralux::projection

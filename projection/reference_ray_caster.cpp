@@ -15,7 +15,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
-#include <shading/cell_shading.h>
+#include <projection/cell_shading.h>
 
 namespace tetralux::projection {
 

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <preint/transfer_function.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include <preint/json_reading.h>
+
+namespace tetralux::preint {
+namespace {
+
+double interpolated(double low, double high, double fraction) { return std::lerp(low, high, fraction); }
+glm::dvec3 interpolated(const glm::dvec3& low, const glm::dvec3& high, double fraction) {
+    return glm::mix(low, high, fraction);
+}
+
+/// Piecewise linear look-up; at a jump the value from above.
+template <class Node, class Value>
+Value valueAt(const std::vector<Node>& nodes, Value Node::*value, double scalar, const Value& ifEmpty) {
+    if (nodes.empty()) return ifEmpty;
+    const auto above =
+        std::upper_bound(nodes.begin(), nodes.end(), scalar, [](double s, const Node& node) { return s < node.scalar; });
+    if (above == nodes.begin()) return nodes.front().*value;
+    if (above == nodes.end()) return nodes.back().*value;
+    const Node& below = *std::prev(above);
+    const double fraction = (scalar - below.scalar) / (above->scalar - below.scalar);
+    return interpolated(below.*value, (*above).*value, fraction);
+}
+
+/// Nodes ascend; a scalar may stand twice (a jump), not more often.
+void requireNodeOrder(const JsonPlace& list, std::size_t index, double beforeLast, double last, double scalar) {
+    const JsonPlace place = list.element(index);
+    if (scalar < last) place.fail(fmt::format("has scalar {}, below the {} before it; sort the nodes by scalar", scalar, last));
+    if (index >= 2 && scalar == last && last == beforeLast) {
+        place.fail(fmt::format("is the third node at scalar {}; two make a jump, leave one out", scalar));
+    }
+}
+
+std::vector<ColorNode> colorNodes(const JsonPlace& list) {
+    list.array("[[s, r, g, b], …]");
+    if (list.size() == 0) list.fail("is empty, must have at least one node [s, r, g, b]");
+    std::vector<ColorNode> nodes;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const JsonPlace node = list.element(i).array("[s, r, g, b]");
+        if (node.size() != 4) node.fail(fmt::format("has {} numbers, a color node has four: [s, r, g, b]", node.size()));
+        const char* what = "a color channel (divide channels of 0 to 255 by 255)";
+        nodes.push_back({node.element(0).number(),
+                         {node.element(1).fraction(what), node.element(2).fraction(what), node.element(3).fraction(what)}});
+        if (i > 0) requireNodeOrder(list, i, nodes[i > 1 ? i - 2 : 0].scalar, nodes[i - 1].scalar, nodes[i].scalar);
+    }
+    return nodes;
+}
+
+std::vector<ExtinctionNode> extinctionNodes(const JsonPlace& list) {
+    list.array("[[s, tau], …]");
+    if (list.size() == 0) list.fail("is empty, must have at least one node [s, tau]");
+    std::vector<ExtinctionNode> nodes;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const JsonPlace node = list.element(i).array("[s, tau]");
+        if (node.size() != 2) node.fail(fmt::format("has {} numbers, an extinction node has two: [s, tau]", node.size()));
+        const double extinction = node.element(1).number();
+        if (extinction < 0.0) node.element(1).fail(fmt::format("is {}, but extinction must not be negative", extinction));
+        nodes.push_back({node.element(0).number(), extinction});
+        if (i > 0) requireNodeOrder(list, i, nodes[i > 1 ? i - 2 : 0].scalar, nodes[i - 1].scalar, nodes[i].scalar);
+    }
+    return nodes;
+}
+
+/// In the order of their values; those at one value keep the order of the file.
+std::vector<Isosurface> isosurfaces(const JsonPlace& list) {
+    list.array("[{\"value\": v, \"opacity\": a, \"color\": [r, g, b]}, …]");
+    std::vector<Isosurface> surfaces;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const JsonPlace one = list.element(i);
+        if (!one.value().is_object()) one.fail("must be an object: {\"value\": v, \"opacity\": a, \"color\": [r, g, b]}");
+        requireKnownKeys(one, {"value", "opacity", "color"});
+        for (const char* key : {"value", "opacity", "color"}) {
+            if (!one.value().contains(key)) one.fail(fmt::format("has no \"{}\"; add it", key));
+        }
+        surfaces.push_back({one.member("value").number(), one.member("opacity").fraction("an opacity"), one.member("color").color()});
+    }
+    std::stable_sort(surfaces.begin(), surfaces.end(), [](const Isosurface& a, const Isosurface& b) { return a.value < b.value; });
+    return surfaces;
+}
+
+TransferFunction functionFrom(const JsonPlace& root) {
+    if (!root.value().is_object()) {
+        root.fail("is not a transfer function; write an object {\"color\": …, \"extinction\": …} or export a color map from ParaView");
+    }
+    requireKnownKeys(root, {"color", "extinction", "isosurfaces", "normalized", "extinctionPerExtent"});
+    auto has = [&](const char* key) { return root.value().contains(key); };
+    TransferFunction function;
+    if (has("isosurfaces")) function.isosurfaces = isosurfaces(root.member("isosurfaces"));
+    if (has("extinction")) function.extinction = extinctionNodes(root.member("extinction"));
+    if (has("color")) function.color = colorNodes(root.member("color"));
+    if (has("normalized")) function.normalized = root.member("normalized").boolean();
+    if (has("extinctionPerExtent")) function.extinctionPerExtent = root.member("extinctionPerExtent").boolean();
+
+    if (function.extinction.empty() && function.isosurfaces.empty()) {
+        root.fail("has neither \"extinction\" nor \"isosurfaces\", so nothing could be seen; add \"extinction\": [[s, tau], …]");
+    }
+    if (function.color.empty() && !function.extinction.empty()) root.fail("has no \"color\"; add \"color\": [[s, r, g, b], …]");
+    if (function.color.empty()) {  // isosurfaces only: modes that colour by the scalar alone use their colours
+        for (const Isosurface& surface : function.isosurfaces) {
+            if (function.color.empty() || surface.value > function.color.back().scalar) {
+                function.color.push_back({surface.value, surface.color});
+            }
+        }
+    }
+    return function;
+}
+
+/// The library's message without its own prefix "[json.exception.…] ".
+std::string withoutPrefix(const std::string& message) {
+    const auto end = message.find("] ");
+    return end == std::string::npos ? message : message.substr(end + 2);
+}
+
+}  // namespace
+
+glm::dvec3 TransferFunction::colorAt(double scalar) const {
+    return valueAt(color, &ColorNode::color, scalar, glm::dvec3{0.0});
+}
+
+double TransferFunction::extinctionAt(double scalar) const {
+    return valueAt(extinction, &ExtinctionNode::extinction, scalar, 0.0);
+}
+
+TransferFunction parseTransferFunction(const std::string& json, const std::string& origin) {
+    nlohmann::json document;
+    try {
+        document = nlohmann::json::parse(json);
+    } catch (const nlohmann::json::exception& error) {
+        throw std::runtime_error(fmt::format("{}: is not valid JSON: {}; mend it there", origin, withoutPrefix(error.what())));
+    }
+    return isParaViewColorMap(document) ? paraViewColorMap(document, origin) : functionFrom(JsonPlace(document, origin));
+}
+
+TransferFunction readTransferFunction(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) throw std::runtime_error(fmt::format("{}: cannot be opened; check the path and its permissions", path));
+    std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    if (file.bad() || text.empty()) {
+        throw std::runtime_error(fmt::format("{}: is empty or cannot be read; give a JSON transfer function", path));
+    }
+    return parseTransferFunction(text, path);
+}
+
+TransferFunction resolved(const TransferFunction& function, double scalarMin, double scalarMax, double extent) {
+    TransferFunction absolute = function;
+    absolute.normalized = false;
+    absolute.extinctionPerExtent = false;
+    if (function.normalized) {
+        // A constant field has no range: it shows as the middle of one.
+        const double half = scalarMax > scalarMin ? 0.0 : 0.5 * std::max(1.0, std::abs(scalarMin));
+        const double low = scalarMin - half, high = scalarMax + half;
+        for (ColorNode& node : absolute.color) node.scalar = std::lerp(low, high, node.scalar);
+        for (ExtinctionNode& node : absolute.extinction) node.scalar = std::lerp(low, high, node.scalar);
+        for (Isosurface& surface : absolute.isosurfaces) surface.value = std::lerp(low, high, surface.value);
+    }
+    if (function.extinctionPerExtent && extent > 0.0) {
+        for (ExtinctionNode& node : absolute.extinction) node.extinction /= extent;
+    }
+    return absolute;
+}
+
+}  // namespace tetralux::preint

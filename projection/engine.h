@@ -26,6 +26,9 @@ struct FrameReport {
     std::string orderMethod;                                 ///< how visibility order was found; "none" when not needed
     std::uint64_t cellsSorted = 0;
     std::uint64_t orderCycles = 0;                           ///< cells left in cycles of the visibility relation
+    /// Pixels (y·width + x, ascending) that the engine could not order with certainty; makeEngine's engines have them composed
+    /// exactly afterwards and count them as repaired.
+    std::vector<std::uint32_t> doubtfulPixels;
     std::uint64_t pixelsRepaired = 0, pixelsWrong = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <projection/engine.h>
+#include <projection/exact_repair.h>
 #include <projection/reference_engine.h>
 
 namespace tetralux::projection {
@@ -31,9 +32,9 @@ std::vector<std::string> engineNames() {
 }
 
 std::unique_ptr<Engine> makeEngine(const Scene& scene, const EngineOptions& options) {
-    if (options.engine == "auto") return engines.front().make(scene, options);
+    const std::string name = options.engine == "auto" ? engines.front().name : options.engine;
     for (const auto& engine : engines)
-        if (options.engine == engine.name) return engine.make(scene, options);
+        if (name == engine.name) return withExactRepair(engine.make(scene, options), scene);
     throw std::runtime_error(fmt::format("engine '{}': there is no such engine; take one of auto, {}", options.engine,
                                          fmt::join(engineNames(), ", ")));
 }

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <projection/engine.h>
+
+namespace tetralux::projection {
+
+/// `engine` with the pixels that it doubts composed by the reference ray caster after each frame. Costs nothing while there are none.
+std::unique_ptr<Engine> withExactRepair(std::unique_ptr<Engine> engine, const Scene& scene);
+
+}  // namespace tetralux::projection

@@ -3,6 +3,7 @@
 /// The judge: what light meets along one segment, in double precision, by closed form or quadrature, no table.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -28,7 +29,10 @@ public:
     explicit ExactIntegral(const TransferFunction& function);
 
     /// The segment from scalar `front` to `back`, linear over `length` (mesh units, ≥ 0), isosurfaces included;
-    /// relative accuracy 1e-12. An isosurface v is crossed exactly when (front < v) ≠ (back < v).
+    /// relative accuracy 1e-12. An isosurface v is crossed exactly when (front < v) ≠ (back < v). Several at one value
+    /// follow each other in their listed order when the scalar rises along the segment, in reverse when it falls.
+    /// With front = back the standard integral is that of a constant (at a jump: of the value from above), the
+    /// scale-invariant one is nothing.
     SegmentResult segment(double front, double back, double length, Integral integral) const;
 
     /// The same without isosurfaces: what tables hold.
@@ -42,12 +46,25 @@ public:
 private:
     struct Piece {  // between two neighbouring nodes of colour or extinction
         double low, high;
-        glm::dvec3 colorLow, colorHigh;
+        double inverseWidth;  // 1/(high − low); 0 for the two outer pieces, which are constant
         double extinctionLow, extinctionHigh;
-        double extinctionIntegralLow;  // Θ(low)
+        glm::dvec3 colorLow, colorHigh;
+        double extinctionIntegralLow;  // Θ(low); of the first piece, Θ(high) = 0
     };
+    struct PointValue {
+        glm::dvec3 color;
+        double extinction;
+    };
+
+    std::size_t pieceFromAbove(double scalar) const;  // low ≤ scalar < high
+    std::size_t pieceFromBelow(double scalar) const;  // low < scalar ≤ high
+    static PointValue valueAt(const Piece& piece, double scalar);
+    void addPiece(const PointValue& front, const PointValue& back, double path, SegmentResult& sum) const;
+    void buildPieces();
+
     TransferFunction function_;
-    std::vector<Piece> pieces_;  // the first and last reach to ∓infinity with constant values
+    std::vector<double> breaks_;  // ascending scalars of all nodes, each once
+    std::vector<Piece> pieces_;   // breaks_.size() + 1; the first and last reach to ∓infinity with constant values
 };
 
 /// Weights of one linear piece of optical depth `front`·… (Moreland & Angel 2004, thesis Equations 5.5–5.10):

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <preint/exact_integral.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace tetralux::preint {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What light has met so far, and what the next part adds behind it.
+void composite(SegmentResult& sum, const SegmentResult& behind) {
+    sum.color += std::exp(-sum.opticalDepth) * behind.color;
+    sum.opticalDepth += behind.opticalDepth;
+}
+
+void compositePeak(SegmentResult& sum, const Isosurface& peak) {
+    sum.color += std::exp(-sum.opticalDepth) * peak.opacity * peak.color;
+    sum.opticalDepth += -std::log1p(-peak.opacity);  // opacity 1: infinite
+}
+
+/// Value of piecewise linear `nodes` at `scalar`, which is an end of the interval (low, high) that holds no node inside.
+template <class Node, class Value>
+Value valueFromInside(const std::vector<Node>& nodes, Value Node::*value, double low, double scalar) {
+    const auto above = std::upper_bound(nodes.begin(), nodes.end(), low, [](double s, const Node& node) { return s < node.scalar; });
+    if (above == nodes.begin()) return nodes.front().*value;
+    if (above == nodes.end()) return nodes.back().*value;
+    const Node& below = *(above - 1);
+    if (scalar == above->scalar) return (*above).*value;
+    const double width = above->scalar - below.scalar;
+    return below.*value * ((above->scalar - scalar) / width) + (*above).*value * ((scalar - below.scalar) / width);
+}
+
+template <class Node>
+bool ascending(const std::vector<Node>& nodes) {
+    return std::is_sorted(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return a.scalar < b.scalar; });
+}
+
+}  // namespace
+
+double SegmentResult::opacity() const { return -std::expm1(-opticalDepth); }
+double SegmentResult::transmittance() const { return std::exp(-opticalDepth); }
+
+ExactIntegral::ExactIntegral(const TransferFunction& function) : function_(function) {
+    if (function_.normalized || function_.extinctionPerExtent) {
+        throw std::runtime_error("transfer function is relative to a field; make it absolute with resolved() first");
+    }
+    if (function_.color.empty()) throw std::runtime_error("transfer function has no color node; give at least one");
+    if (!ascending(function_.color) || !ascending(function_.extinction)) {
+        throw std::runtime_error("transfer function nodes are not in ascending order; sort them by scalar");
+    }
+    if (function_.extinction.empty()) function_.extinction.push_back({function_.color.front().scalar, 0.0});
+    std::stable_sort(function_.isosurfaces.begin(), function_.isosurfaces.end(),
+                     [](const Isosurface& a, const Isosurface& b) { return a.value < b.value; });
+    buildPieces();
+}
+
+void ExactIntegral::buildPieces() {
+    for (const ColorNode& node : function_.color) breaks_.push_back(node.scalar);
+    for (const ExtinctionNode& node : function_.extinction) breaks_.push_back(node.scalar);
+    std::sort(breaks_.begin(), breaks_.end());
+    breaks_.erase(std::unique(breaks_.begin(), breaks_.end()), breaks_.end());
+
+    const auto& color = function_.color;
+    const auto& extinction = function_.extinction;
+    pieces_.push_back({-infinity, breaks_.front(), 0.0, extinction.front().extinction, extinction.front().extinction,
+                       color.front().color, color.front().color, 0.0});
+    double extinctionIntegral = 0.0;
+    for (std::size_t i = 1; i < breaks_.size(); ++i) {
+        const double low = breaks_[i - 1], high = breaks_[i];
+        Piece piece{low, high, 1.0 / (high - low), valueFromInside(extinction, &ExtinctionNode::extinction, low, low),
+                    valueFromInside(extinction, &ExtinctionNode::extinction, low, high),
+                    valueFromInside(color, &ColorNode::color, low, low), valueFromInside(color, &ColorNode::color, low, high),
+                    extinctionIntegral};
+        extinctionIntegral += 0.5 * (piece.extinctionLow + piece.extinctionHigh) * (high - low);
+        pieces_.push_back(piece);
+    }
+    pieces_.push_back({breaks_.back(), infinity, 0.0, extinction.back().extinction, extinction.back().extinction,
+                       color.back().color, color.back().color, extinctionIntegral});
+}
+
+std::size_t ExactIntegral::pieceFromAbove(double scalar) const {
+    return static_cast<std::size_t>(std::upper_bound(breaks_.begin(), breaks_.end(), scalar) - breaks_.begin());
+}
+
+std::size_t ExactIntegral::pieceFromBelow(double scalar) const {
+    return static_cast<std::size_t>(std::lower_bound(breaks_.begin(), breaks_.end(), scalar) - breaks_.begin());
+}
+
+ExactIntegral::PointValue ExactIntegral::valueAt(const Piece& piece, double scalar) {
+    if (piece.inverseWidth == 0.0) return {piece.colorLow, piece.extinctionLow};
+    // Both weights by subtraction from their own end: relative accuracy where a value falls to 0.
+    const double high = (scalar - piece.low) * piece.inverseWidth, low = (piece.high - scalar) * piece.inverseWidth;
+    return {low * piece.colorLow + high * piece.colorHigh, low * piece.extinctionLow + high * piece.extinctionHigh};
+}
+
+void ExactIntegral::addPiece(const PointValue& front, const PointValue& back, double path, SegmentResult& sum) const {
+    const double frontDepth = front.extinction * path, backDepth = back.extinction * path;
+    const double depth = 0.5 * (frontDepth + backDepth);
+    if (!(depth > 0.0)) return;
+    SegmentResult part;
+    part.opticalDepth = depth;
+    if (front.color == back.color) {
+        part.color = front.color * part.opacity();
+    } else {
+        const LinearPieceWeights weights = linearPieceWeights(frontDepth, backDepth);
+        part.color = weights.frontWeight * front.color + weights.backWeight * back.color;
+    }
+    if (sum.opticalDepth == 0.0) {
+        sum = part;
+    } else {
+        composite(sum, part);
+    }
+}
+
+SegmentResult ExactIntegral::smoothSegment(double front, double back, double length, Integral integral) const {
+    const bool rising = front <= back;
+    const double low = rising ? front : back, high = rising ? back : front;
+    const std::size_t first = pieceFromAbove(low), last = std::max(first, pieceFromBelow(high));
+    const double path = integral == Integral::Standard ? length : high - low;
+    SegmentResult sum;
+    if (first == last) {
+        addPiece(valueAt(pieces_[first], front), valueAt(pieces_[first], back), path, sum);
+        return sum;
+    }
+    const double pathPerScalar = integral == Integral::Standard ? length / (high - low) : 1.0;
+    for (std::size_t step = 0; step <= last - first; ++step) {
+        const Piece& piece = pieces_[rising ? first + step : last - step];
+        const double from = std::max(low, piece.low), to = std::min(high, piece.high);
+        PointValue atFrom = from == piece.low ? PointValue{piece.colorLow, piece.extinctionLow} : valueAt(piece, from);
+        PointValue atTo = to == piece.high ? PointValue{piece.colorHigh, piece.extinctionHigh} : valueAt(piece, to);
+        if (!rising) std::swap(atFrom, atTo);
+        addPiece(atFrom, atTo, (to - from) * pathPerScalar, sum);
+    }
+    return sum;
+}
+
+SegmentResult ExactIntegral::segment(double front, double back, double length, Integral integral) const {
+    const std::vector<Isosurface>& peaks = function_.isosurfaces;
+    if (peaks.empty() || front == back) return smoothSegment(front, back, length, integral);
+    // Crossed are those with low < value ≤ high, whatever the direction.
+    const bool rising = front < back;
+    auto firstAbove = [&](double scalar) {
+        return std::upper_bound(peaks.begin(), peaks.end(), scalar, [](double s, const Isosurface& peak) { return s < peak.value; });
+    };
+    const auto begin = firstAbove(rising ? front : back), end = firstAbove(rising ? back : front);
+    if (begin == end) return smoothSegment(front, back, length, integral);
+
+    const double lengthPerScalar = length / std::abs(back - front);
+    SegmentResult sum;
+    double from = front;
+    auto advance = [&](double to) {
+        composite(sum, smoothSegment(from, to, lengthPerScalar * std::abs(to - from), integral));
+        from = to;
+    };
+    for (auto left = end - begin, index = decltype(left){0}; index < left; ++index) {
+        const Isosurface& peak = rising ? begin[index] : end[-1 - index];
+        if (peak.value != from) advance(peak.value);
+        compositePeak(sum, peak);
+    }
+    if (from != back) advance(back);
+    return sum;
+}
+
+double ExactIntegral::extinctionIntegral(double scalar) const {
+    const std::size_t index = pieceFromAbove(scalar);
+    const Piece& piece = pieces_[index];
+    const double anchor = index == 0 ? piece.high : piece.low;
+    const double anchorExtinction = index == 0 ? piece.extinctionHigh : piece.extinctionLow;
+    return piece.extinctionIntegralLow + 0.5 * (anchorExtinction + valueAt(piece, scalar).extinction) * (scalar - anchor);
+}
+
+}  // namespace tetralux::preint

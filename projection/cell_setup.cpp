@@ -236,6 +236,8 @@ CellRecord CellProjector::record(mesh::CellIndex cell, const PixelRect& rect) co
     return record;
 }
 
+std::array<double, 4> CellProjector::eyeCoordinates(mesh::CellIndex cell) const { return linearForms(cell).eye; }
+
 CellGradient CellProjector::gradient(mesh::CellIndex cell) const {
     // in scene units first: |g|² of a mesh of size 1e-15 leaves the range of double otherwise
     const glm::dvec3 g = mesh::cellGradient(mesh_, cell) / units_.scalarScale * units_.length;

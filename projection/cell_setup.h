@@ -89,6 +89,10 @@ public:
     /// cells of a face give opposite answers.
     bool faceIsFront(mesh::CellIndex cell, int face) const;
 
+    /// Barycentric coordinates λ_k of the eye in the cell (orthographic: rates of λ_k towards the eye, per mesh length):
+    /// what PowerOrder's keys weight the heights by.
+    std::array<double, 4> eyeCoordinates(mesh::CellIndex cell) const;
+
     CellGradient gradient(mesh::CellIndex cell) const;
 
 private:

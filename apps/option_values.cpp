@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <apps/option_values.h>
+
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace tetralux::apps {
+
+namespace {
+
+using projection::Mode;
+
+constexpr int largestSide = 16384;  // pixels
+
+struct NamedMode {
+    Mode mode;
+    const char* name;
+};
+constexpr NamedMode modes[] = {{Mode::Standard, "standard"},
+                               {Mode::ScaleInvariant, "scale-invariant"},
+                               {Mode::Mip, "mip"},
+                               {Mode::Average, "average"},
+                               {Mode::FirstHit, "first-hit"}};
+
+/// The whole of `text` as a number; nothing when anything else stands there.
+template <class Number>
+std::optional<Number> parseNumber(std::string_view text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+/// Three finite numbers with commas between them.
+std::optional<glm::dvec3> parseTriple(std::string_view text) {
+    glm::dvec3 result(0);
+    for (int i = 0; i < 3; ++i) {
+        const std::size_t comma = text.find(',');
+        if ((comma == std::string_view::npos) != (i == 2)) return std::nullopt;
+        const auto number = parseNumber<double>(text.substr(0, comma));
+        if (!number || !std::isfinite(*number)) return std::nullopt;
+        result[i] = *number;
+        if (i < 2) text.remove_prefix(comma + 1);
+    }
+    return result;
+}
+
+}  // namespace
+
+glm::dvec3 parseVector(const std::string& option, const std::string& text) {
+    if (const auto triple = parseTriple(text)) return *triple;
+    throw std::runtime_error(
+        fmt::format("{}: '{}' is not three numbers; give x,y,z without spaces, such as 1,0.5,-2", option, text));
+}
+
+glm::ivec2 parseSize(const std::string& option, const std::string& text) {
+    const std::size_t cross = text.find('x');
+    if (cross != std::string::npos) {
+        const auto width = parseNumber<int>(std::string_view(text).substr(0, cross));
+        const auto height = parseNumber<int>(std::string_view(text).substr(cross + 1));
+        if (width && height && *width >= 1 && *height >= 1 && *width <= largestSide && *height <= largestSide)
+            return {*width, *height};
+    }
+    throw std::runtime_error(
+        fmt::format("{}: '{}' is no image size; give WxH with whole numbers from 1 to {}, such as 512x512", option,
+                    text, largestSide));
+}
+
+std::optional<glm::vec3> parseBackground(const std::string& option, const std::string& text) {
+    if (text == "none") return std::nullopt;
+    const auto color = parseTriple(text);
+    if (color && color->x >= 0 && color->y >= 0 && color->z >= 0 && color->x <= 1 && color->y <= 1 && color->z <= 1)
+        return glm::vec3(*color);
+    throw std::runtime_error(
+        fmt::format("{}: '{}' is no colour; give r,g,b with each from 0 to 1, such as 1,1,1, or none", option, text));
+}
+
+Mode parseMode(const std::string& option, const std::string& text) {
+    for (const NamedMode& named : modes)
+        if (text == named.name) return named.mode;
+    throw std::runtime_error(fmt::format("{}: there is no mode '{}'; take one of {}", option, text, modeNames()));
+}
+
+std::string modeName(Mode mode) {
+    for (const NamedMode& named : modes)
+        if (mode == named.mode) return named.name;
+    return "";
+}
+
+std::string modeNames() {
+    std::string names;
+    for (const NamedMode& named : modes) names += fmt::format("{}{}", names.empty() ? "" : ", ", named.name);
+    return names;
+}
+
+}  // namespace tetralux::apps

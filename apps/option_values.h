@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// The values that options take, from text. Every function throws std::runtime_error with `option`, what is wrong and
+/// what to give.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <projection/scene.h>
+
+namespace tetralux::apps {
+
+/// "x,y,z": three finite numbers.
+glm::dvec3 parseVector(const std::string& option, const std::string& text);
+
+/// "WxH": whole numbers from 1 to 16384.
+glm::ivec2 parseSize(const std::string& option, const std::string& text);
+
+/// "r,g,b" with each from 0 to 1, or "none".
+std::optional<glm::vec3> parseBackground(const std::string& option, const std::string& text);
+
+projection::Mode parseMode(const std::string& option, const std::string& text);
+std::string modeName(projection::Mode mode);
+std::string modeNames();  ///< with commas, for help and messages
+
+}  // namespace tetralux::apps

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// tetralux render: one image, or an orbit of them.
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <apps/commands.h>
+#include <apps/progress.h>
+#include <apps/render_options.h>
+#include <apps/render_report.h>
+#include <apps/render_scene.h>
+#include <apps/report_text.h>
+#include <projection/image.h>
+#include <projection/whole_file.h>
+
+namespace tetralux::apps {
+
+namespace {
+
+/// OUT.png, or OUT_0000.png and so on.
+std::vector<std::string> outputPaths(const RenderOptions& options) {
+    if (!options.frames) return {options.output};
+    std::vector<std::string> paths;
+    const std::filesystem::path whole(options.output);
+    for (int i = 0; i < *options.frames; ++i) {
+        std::filesystem::path path = whole;
+        path.replace_filename(fmt::format("{}_{:04}{}", whole.stem().string(), i, whole.extension().string()));
+        paths.push_back(path.string());
+    }
+    return paths;
+}
+
+/// Everything that could keep the results from being written must show before the work, not after.
+void checkOutputs(const RenderOptions& options, const std::vector<std::string>& paths) {
+    for (const std::string& path : paths) projection::checkImagePath(path);
+    if (!options.report.empty()) projection::checkWritable(options.report);
+}
+
+void tell(const RenderOptions& options, const std::vector<std::string>& paths, const SceneRenderer& renderer) {
+    const RenderRecord& record = renderer.record();
+    for (const std::string& line : defectLines(record.mesh)) fmt::print("{}: {}\n", options.source, line);
+    const projection::FrameReport& first = record.frames.front();
+    double total = 0.0;
+    for (const projection::FrameReport& frame : record.frames) total += frame.frameMilliseconds;
+    fmt::print("{}{}: {}x{}, {} of {} tetrahedra, {} ({}), {:.0f} ms{}\n", paths.front(),
+               paths.size() > 1 ? " to " + paths.back() : "", record.camera.width, record.camera.height,
+               first.cellsDrawn, record.tetrahedra, renderer.engine().name(), renderer.engine().renderer(),
+               total / static_cast<double>(record.frames.size()), paths.size() > 1 ? " a frame" : "");
+}
+
+int render(const RenderOptions& options) {
+    std::optional<tbb::global_control> threadLimit;
+    if (options.settings.threads > 0)
+        threadLimit.emplace(tbb::global_control::max_allowed_parallelism,
+                            static_cast<std::size_t>(options.settings.threads));
+
+    const std::vector<std::string> paths = outputPaths(options);
+    checkOutputs(options, paths);
+    SceneRenderer renderer(options);
+    {
+        ProgressBar progress(static_cast<int>(paths.size()), paths.size() > 1 && !options.quiet);
+        for (std::size_t i = 0; i < paths.size(); ++i) {
+            projection::writeImage(renderer.render(static_cast<double>(i) / static_cast<double>(paths.size())),
+                                   paths[i]);
+            progress.show(static_cast<int>(i) + 1);
+        }
+    }
+    if (!options.report.empty()) projection::writeWholeFile(options.report, jsonText(renderReport(options, renderer)));
+    if (!options.quiet) tell(options, paths, renderer);
+    return 0;
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& program, Command& chosen) {
+    const auto options = std::make_shared<RenderOptions>();
+    CLI::App* command = program.add_subcommand("render", "one picture of a mesh, or an orbit of pictures");
+    addRenderOptions(*command, *options);
+    command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
+}
+
+}  // namespace tetralux::apps

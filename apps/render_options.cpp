@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <apps/render_options.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+#include <glm/geometric.hpp>
+
+#include <apps/option_values.h>
+#include <preint/transfer_function.h>
+
+namespace tetralux::apps {
+
+namespace {
+
+/// An option whose text `parse(name, text)` turns into `target`.
+template <class Target, class Parse>
+CLI::Option* addParsed(CLI::App& command, const std::string& name, Target& target, Parse parse, const std::string& help,
+                       const std::string& form) {
+    return command
+        .add_option_function<std::string>(
+            name, [&target, parse, name](const std::string& text) { target = parse(name, text); }, help)
+        ->type_name(form);
+}
+
+/// A finite number for which `good` holds; `wanted` says in words which ones those are.
+template <class Number, class Target>
+void addNumber(CLI::App& command, const std::string& name, Target& target, bool (*good)(double),
+               const std::string& wanted, const std::string& help) {
+    const auto store = [&target, good, wanted, name](const Number& value) {
+        const auto number = static_cast<double>(value);
+        if (!std::isfinite(number) || !good(number))
+            throw std::runtime_error(fmt::format("{}: {} will not do; give {}", name, value, wanted));
+        target = value;
+    };
+    command.add_option_function<Number>(name, store, help);
+}
+
+bool positive(double value) {
+    return value > 0.0;
+}
+bool notNegative(double value) {
+    return value >= 0.0;
+}
+
+shading::DirectionalLight parseLight(const std::string& text) {
+    const glm::dvec3 direction = parseVector("--light", text);
+    const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+    if (largest == 0.0)
+        throw std::runtime_error("--light: 0,0,0 has no direction; give the direction towards the light");
+    return {glm::normalize(direction / largest)};
+}
+
+void addPictureOptions(CLI::App& command, RenderOptions& options) {
+    command.add_option("--scalar", options.scalar,
+                       "field to show: NAME (vectors by magnitude) or NAME:x (a component)");
+    command.add_option("--time", options.time, "time step of a series, the nearest one is taken");
+    command.add_option(
+        "--tf", options.transferFunction,
+        fmt::format("transfer function: JSON file or one of {}", fmt::join(preint::presetNames(), ", ")));
+    addParsed(command, "--mode", options.settings.mode, parseMode, modeNames(), "MODE");
+    addParsed(command, "--background", options.background, parseBackground, "colour put under the picture, or none",
+              "r,g,b");
+    command.add_flag("--silhouette", options.settings.shading.silhouette, "thin layers seen edge-on become denser");
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--light",
+            [&options](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) options.settings.shading.lights.push_back(parseLight(text));
+            },
+            "direction towards a light; may be given several times")
+        ->type_name("dx,dy,dz")
+        ->allow_extra_args(false);
+    addNumber<double>(command, "--ambient", options.settings.shading.ambient, notNegative, "a number from 0",
+                      "ambient light, 0.1");
+    addNumber<double>(command, "--exponent", options.settings.shading.exponent, notNegative, "a number from 0",
+                      "specular exponent, 32");
+    command.add_flag_callback(
+        "--no-transmission", [&options] { options.settings.shading.transmission = false; },
+        "no light through the layers");
+}
+
+void addCameraOptions(CLI::App& command, RenderOptions& options) {
+    addParsed(command, "--size", options.size, parseSize, "pixels, 512x512", "WxH");
+    addParsed(command, "--eye", options.eye, parseVector, "where from; default: a view that holds the mesh", "x,y,z");
+    addParsed(command, "--target", options.target, parseVector, "where to; default: the mesh's centre", "x,y,z");
+    addParsed(command, "--up", options.up, parseVector, "what is up; default: 0,1,0", "x,y,z");
+    addNumber<double>(
+        command, "--fov", options.fovDegrees, [](double value) { return value > 0.0 && value < 180.0; },
+        "degrees between 0 and 180", "vertical field of view in degrees, 30");
+    addNumber<double>(command, "--height", options.orthographicHeight, positive, "a length in mesh units",
+                      "orthographic view of this height in mesh units");
+}
+
+void addMachineOptions(CLI::App& command, RenderOptions& options) {
+    command.add_option("--engine", options.engine.engine,
+                       fmt::format("what draws: auto, {}", fmt::join(projection::engineNames(), ", ")));
+    command.add_option("--context", options.engine.context, "OpenGL context: auto, egl, osmesa");
+    addNumber<int>(command, "--threads", options.settings.threads, positive, "a whole number from 1",
+                   "processor threads; default: all");
+    addNumber<double>(command, "--table-error", options.settings.table.wantedError, positive, "a number above 0",
+                      "largest error of a pre-integration table, 1e-4");
+    addNumber<int>(
+        command, "--table-size", options.settings.table.size,
+        [](double value) { return value >= 2.0 && value <= 8192.0; }, "a whole number from 2 to 8192",
+        "texels along a table's side; default: found from --table-error");
+}
+
+void addOutputOptions(CLI::App& command, RenderOptions& options) {
+    command.add_option("-o,--output", options.output, "picture to write: .png or .exr (32-bit float RGBA)")->required();
+    addNumber<int>(
+        command, "--frames", options.frames, [](double value) { return value >= 1.0 && value <= 1e6; },
+        "a whole number from 1", "an orbit of so many pictures: OUT_0000.png, OUT_0001.png, ...");
+    command.add_option("--report", options.report, "JSON file with cells, times and memory");
+    command.add_flag("--quiet", options.quiet, "nothing on standard output, no progress bar");
+}
+
+}  // namespace
+
+void addRenderOptions(CLI::App& command, RenderOptions& options) {
+    command.add_option("MESH", options.source, "mesh file, or bucky:N, coulomb:N, marschner-lobb:N, hydrogen:N")
+        ->required();
+    using Section = void (*)(CLI::App&, RenderOptions&);
+    const std::pair<const char*, Section> sections[] = {{"Output", addOutputOptions},
+                                                        {"Picture", addPictureOptions},
+                                                        {"Camera", addCameraOptions},
+                                                        {"Machine", addMachineOptions}};
+    for (const auto& [title, add] : sections) {
+        command.option_defaults()->group(title);
+        add(command, options);
+    }
+}
+
+}  // namespace tetralux::apps

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// What `tetralux render` is asked for.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <projection/engine.h>
+#include <projection/scene.h>
+
+namespace CLI {
+class App;
+}
+
+namespace tetralux::apps {
+
+struct RenderOptions {
+    std::string source;                        ///< mesh file or generated field
+    std::string scalar;                        ///< empty: the first field
+    std::optional<double> time;                ///< of a series
+    std::string transferFunction = "inferno";  ///< file or preset
+    projection::RenderSettings settings;
+    projection::EngineOptions engine;
+
+    glm::ivec2 size{512, 512};                  ///< pixels
+    std::optional<glm::dvec3> eye, target, up;  ///< mesh units; what is not given is found from the mesh
+    double fovDegrees = 30.0;
+    double orthographicHeight = 0.0;  ///< mesh units; 0: perspective
+
+    std::string output;         ///< .png or .exr
+    std::optional<int> frames;  ///< an orbit of so many images
+    std::optional<glm::vec3> background;
+    std::string report;  ///< JSON file; empty: none
+    bool quiet = false;
+};
+
+/// Adds render's options to `command`; parsing fills `options`.
+void addRenderOptions(CLI::App& command, RenderOptions& options);
+
+}  // namespace tetralux::apps

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <apps/render_report.h>
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include <apps/option_values.h>
+#include <apps/report_text.h>
+
+namespace tetralux::apps {
+
+namespace {
+
+using nlohmann::json;
+using projection::FrameReport;
+
+std::uint64_t peakMemoryBytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+json vectorJson(const glm::dvec3& v) {
+    return json::array({v.x, v.y, v.z});
+}
+
+/// Source cells and tetrahedra that were left out before drawing, and by the first frame.
+json skippedCells(const RenderRecord& record, const FrameReport& first) {
+    std::map<std::string, std::uint64_t> skipped = record.mesh.skipped;
+    for (const auto& [reason, count] : first.cellsSkipped) skipped[reason] += count;
+    return skipped;
+}
+
+/// Wall times of every frame, whole and by stage; a frame without a stage has 0 there.
+json timesJson(const RenderRecord& record, const projection::Engine& engine) {
+    json times = {{"read", record.readMilliseconds}, {"prepare", record.prepareMilliseconds}};
+    for (const auto& [stage, milliseconds] : engine.prepareMilliseconds()) times["prepare " + stage] = milliseconds;
+    json frame = json::array();
+    std::map<std::string, std::vector<double>> stages;
+    for (std::size_t i = 0; i < record.frames.size(); ++i) {
+        frame.push_back(record.frames[i].frameMilliseconds);
+        for (const auto& [stage, milliseconds] : record.frames[i].stageMilliseconds) {
+            stages[stage].resize(record.frames.size());
+            stages[stage][i] = milliseconds;
+        }
+    }
+    times["frame"] = std::move(frame);
+    for (const auto& [stage, milliseconds] : stages)
+        if (!times.contains(stage)) times[stage] = milliseconds;
+    return times;
+}
+
+json tableJson(const preint::PreintegrationTable& table) {
+    return {{"size", table.size},
+            {"slices", table.slices},
+            {"zones", table.zones.size()},
+            {"measured_error", table.measuredError},
+            {"build_ms", table.buildMilliseconds}};
+}
+
+json cameraJson(const projection::Camera& camera) {
+    json result = {
+        {"eye", vectorJson(camera.eye)}, {"target", vectorJson(camera.target)}, {"up", vectorJson(camera.up)}};
+    if (camera.orthographic())
+        result["height"] = camera.orthographicHeight;
+    else
+        result["fov"] = camera.fovDegrees;
+    return result;
+}
+
+}  // namespace
+
+json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
+    const RenderRecord& record = renderer.record();
+    const projection::Engine& engine = renderer.engine();
+    const FrameReport first = record.frames.empty() ? FrameReport{} : record.frames.front();
+    std::uint64_t repaired = 0, wrong = 0;
+    for (const FrameReport& frame : record.frames) {
+        repaired += frame.pixelsRepaired;
+        wrong += frame.pixelsWrong;
+    }
+    json report = {
+        {"tetralux", TETRALUX_VERSION},
+        {"mesh", options.source},
+        {"scalar", {{"name", record.fieldName}, {"min", record.scalarMin}, {"max", record.scalarMax}}},
+        {"mode", modeName(options.settings.mode)},
+        {"size", {record.camera.width, record.camera.height}},
+        {"camera", cameraJson(record.camera)},
+        {"engine", engine.name()},
+        {"renderer", engine.renderer()},
+        {"cells",
+         {{"read", record.mesh.cellsRead},
+          {"types", record.mesh.cellTypes},
+          {"tetrahedra", record.tetrahedra},
+          {"drawn", first.cellsDrawn},
+          {"skipped", skippedCells(record, first)}}},
+        {"defects", defectsJson(record.mesh)},
+        {"order", {{"method", first.orderMethod}, {"sorted", first.cellsSorted}, {"cyclic", first.orderCycles}}},
+        {"fragments", first.fragments},
+        {"ms", timesJson(record, engine)},
+        {"pixels", {{"repaired", repaired}, {"wrong", wrong}}},
+        {"peak_memory_bytes", peakMemoryBytes()},
+    };
+    if (const auto* table = engine.table()) report["table"] = tableJson(*table);
+    return report;
+}
+
+}  // namespace tetralux::apps

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// What a run tells in --report.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <apps/render_options.h>
+#include <apps/render_scene.h>
+
+namespace tetralux::apps {
+
+/// {"engine", "renderer", "cells": {"read", "tetrahedra", "drawn", "skipped": {reason: count}}, "ms": {"read",
+/// "prepare", "frame": […], stage: […] …}, "pixels", "peak_memory_bytes", …}. Counts are those of the first frame,
+/// times are in milliseconds.
+nlohmann::json renderReport(const RenderOptions& options, const SceneRenderer& renderer);
+
+}  // namespace tetralux::apps

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <apps/render_scene.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <mesh/read_mesh.h>
+#include <preint/transfer_function.h>
+
+namespace tetralux::apps {
+
+namespace {
+
+class Stopwatch {
+public:
+    double milliseconds() const {
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// A preset or a file; a preset's name wins over a file of that name.
+preint::TransferFunction loadTransferFunction(const std::string& name) {
+    const std::vector<std::string> presets = preint::presetNames();
+    if (std::find(presets.begin(), presets.end(), name) != presets.end()) return preint::preset(name);
+    std::error_code ignored;
+    if (!std::filesystem::exists(name, ignored))
+        throw std::runtime_error(fmt::format("--tf {}: no such file or preset; give a JSON file or one of {}", name,
+                                             fmt::join(presets, ", ")));
+    return preint::readTransferFunction(name);
+}
+
+/// What "per extent" in a transfer function means for this mode (preint::TransferFunction::extinctionPerExtent).
+double extentOf(const mesh::ScalarMesh& mesh, projection::Mode mode) {
+    return projection::integralOf(mode) == preint::Integral::ScaleInvariant ? mesh.scalarMax - mesh.scalarMin
+                                                                            : mesh.bounds.diagonal();
+}
+
+projection::Camera cameraFor(const RenderOptions& options, const mesh::BoundingBox& bounds) {
+    projection::Camera camera;
+    camera.width = options.size.x;
+    camera.height = options.size.y;
+    camera.fovDegrees = options.fovDegrees;
+    camera.orthographicHeight = options.orthographicHeight;
+    camera.up = options.up.value_or(camera.up);
+    camera.target = options.target.value_or(bounds.centre());
+    camera.eye = options.eye ? *options.eye : projection::threeQuarterEye(bounds, camera);
+    projection::cameraFrame(camera);  // throws now rather than after preparing
+    return camera;
+}
+
+}  // namespace
+
+SceneRenderer::SceneRenderer(const RenderOptions& options) : background_(options.background) {
+    readScene(options);
+    const Stopwatch watch;
+    record_.camera = cameraFor(options, scene_.mesh->bounds);
+    engine_ = projection::makeEngine(scene_, options.engine);
+    record_.prepareMilliseconds = watch.milliseconds();
+}
+
+void SceneRenderer::readScene(const RenderOptions& options) {
+    const preint::TransferFunction transferFunction = loadTransferFunction(options.transferFunction);
+    const Stopwatch watch;
+    mesh::ReadResult source = mesh::readMesh(options.source, {.time = options.time});
+    record_.mesh = std::move(source.report);
+    try {
+        mesh::ScalarSelection selection = mesh::selectScalar(std::move(source.mesh), options.scalar, record_.mesh);
+        record_.fieldName = selection.fieldName;
+        scene_.mesh = std::make_shared<const mesh::ScalarMesh>(std::move(selection.mesh));
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(fmt::format("{}: {}", options.source, error.what()));
+    }
+    record_.readMilliseconds = watch.milliseconds();
+
+    record_.scalarMin = scene_.mesh->scalarMin;
+    record_.scalarMax = scene_.mesh->scalarMax;
+    record_.tetrahedra = scene_.mesh->cells.size();
+    scene_.settings = options.settings;
+    scene_.settings.table.threads = options.settings.threads;
+    scene_.transferFunction = preint::resolved(transferFunction, record_.scalarMin, record_.scalarMax,
+                                               extentOf(*scene_.mesh, options.settings.mode));
+}
+
+projection::Image SceneRenderer::render(double turn) {
+    const projection::Camera camera =
+        turn == 0.0 ? record_.camera : projection::orbited(record_.camera, 2.0 * std::numbers::pi * turn);
+    projection::FrameReport report;
+    const Stopwatch watch;
+    projection::Image image = engine_->render(camera, report);
+    report.frameMilliseconds = watch.milliseconds();
+    record_.frames.push_back(std::move(report));
+    if (background_) projection::putUnder(image, *background_);
+    return image;
+}
+
+}  // namespace tetralux::apps

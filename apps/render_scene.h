@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// From options to images: reads the mesh, makes scene, camera and engine, renders frame by frame.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <apps/render_options.h>
+#include <mesh/mesh_report.h>
+#include <projection/engine.h>
+
+namespace tetralux::apps {
+
+/// What was found in the mesh and what each step took; times are wall times in milliseconds.
+struct RenderRecord {
+    std::string fieldName;
+    double scalarMin = 0.0, scalarMax = 0.0;
+    std::uint64_t tetrahedra = 0;
+    mesh::MeshReport mesh;
+    projection::Camera camera;  ///< of the first frame
+    double readMilliseconds = 0.0;
+    double prepareMilliseconds = 0.0;
+    std::vector<projection::FrameReport> frames;
+};
+
+class SceneRenderer {
+public:
+    /// Reads and prepares everything that does not change from frame to frame.
+    /// \throws std::runtime_error for bad input, naming file, field or option
+    explicit SceneRenderer(const RenderOptions& options);
+
+    /// The image seen after the eye has turned by `turn` (1: once round) about `up`, background included.
+    projection::Image render(double turn);
+
+    const RenderRecord& record() const { return record_; }
+    const projection::Engine& engine() const { return *engine_; }
+
+private:
+    void readScene(const RenderOptions& options);
+
+    projection::Scene scene_;
+    std::optional<glm::vec3> background_;
+    std::unique_ptr<projection::Engine> engine_;
+    RenderRecord record_;
+};
+
+}  // namespace tetralux::apps

@@ -56,40 +56,65 @@ double edgeSide(const RayPoint& a, const RayPoint& b) { return a.x * b.y - a.y *
 /// A zero side counts as positive in the order of the point numbers: one answer for all cells at the edge.
 bool sideIsPositive(double side, mesh::PointIndex a, mesh::PointIndex b) { return side > 0 || (side == 0 && a < b); }
 
-/// Cuts the ray by one cell. Crossing points and their scalars are convex combinations of face corners: both cells of a
-/// face get the same numbers, thin cells lose nothing.
-std::optional<RaySegment> cut(const RayFrame& ray, const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {
+/// Where the ray passes a face.
+struct Crossing {
+    double t, scalar;
+    bool enters;
+};
+
+/// Crossing point and scalar are convex combinations of the face's corners, taken in the order of the point numbers: both cells
+/// of a face get the same numbers to the bit, so an isosurface on the face is crossed in exactly one of them.
+std::optional<Crossing> crossFace(const std::array<RayPoint, 4>& v, const mesh::ScalarMesh& mesh, mesh::CellIndex cell,
+                                  std::size_t face) {
     const mesh::Tetrahedron& points = mesh.cells[cell];
+    std::array<int, 3> corners = mesh::faceVertices[face];
+    bool flipped = false;
+    auto order = [&](std::size_t i, std::size_t j) {
+        if (points[static_cast<std::size_t>(corners[i])] > points[static_cast<std::size_t>(corners[j])]) {
+            std::swap(corners[i], corners[j]);
+            flipped = !flipped;
+        }
+    };
+    order(0, 1);
+    order(1, 2);
+    order(0, 1);
+
+    const auto [a, b, c] = std::array{static_cast<std::size_t>(corners[0]), static_cast<std::size_t>(corners[1]),
+                                      static_cast<std::size_t>(corners[2])};
+    const double wa = edgeSide(v[b], v[c]), wb = edgeSide(v[c], v[a]), wc = edgeSide(v[a], v[b]);
+    const bool positive = sideIsPositive(wa, points[b], points[c]);
+    if (positive != sideIsPositive(wb, points[c], points[a]) || positive != sideIsPositive(wc, points[a], points[b]))
+        return std::nullopt;
+    const double sum = wa + wb + wc;
+    if (sum == 0) return std::nullopt;  // the face is a line to this ray
+
+    auto blend = [&](double atA, double atB, double atC) {  // from differences: exact where all three are the same
+        return atA + wb / sum * (atB - atA) + wc / sum * (atC - atA);
+    };
+    // across × other = direction, so a face that shows its outside to the eye has a negative area
+    return Crossing{blend(v[a].t, v[b].t, v[c].t),
+                    blend(mesh.scalarAt(cell, corners[0]), mesh.scalarAt(cell, corners[1]),
+                          mesh.scalarAt(cell, corners[2])),
+                    positive == flipped};
+}
+
+/// Cuts the ray by one cell.
+std::optional<RaySegment> cut(const RayFrame& ray, const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {
     std::array<RayPoint, 4> v;
-    for (std::size_t k = 0; k < 4; ++k) v[k] = ray.see(mesh.positions[points[k]]);
+    for (std::size_t k = 0; k < 4; ++k) v[k] = ray.see(mesh.positions[mesh.cells[cell][k]]);
 
     RaySegment segment{0, 0, 0, 0, cell};
     bool entered = false, left = false;
-    for (int face = 0; face < 4; ++face) {
-        const auto& corners = mesh::faceVertices[static_cast<std::size_t>(face)];
-        std::array<double, 3> weight;
-        int positive = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto a = static_cast<std::size_t>(corners[(k + 1) % 3]), b = static_cast<std::size_t>(corners[(k + 2) % 3]);
-            weight[k] = edgeSide(v[a], v[b]);
-            positive += sideIsPositive(weight[k], points[a], points[b]) ? 1 : 0;
-        }
-        if (positive != 0 && positive != 3) continue;
-        const double sum = weight[0] + weight[1] + weight[2];
-        if (sum == 0) continue;  // the face is a line to this ray
-        double t = 0, scalar = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            t += weight[k] / sum * v[static_cast<std::size_t>(corners[k])].t;
-            scalar += weight[k] / sum * mesh.scalarAt(cell, corners[k]);
-        }
-        // across × other = direction, so a face that shows its outside to the eye has a negative area
-        if (positive == 0) {
-            segment.tIn = t;
-            segment.scalarIn = scalar;
+    for (std::size_t face = 0; face < 4; ++face) {
+        const auto crossing = crossFace(v, mesh, cell, face);
+        if (!crossing) continue;
+        if (crossing->enters) {
+            segment.tIn = crossing->t;
+            segment.scalarIn = crossing->scalar;
             entered = true;
         } else {
-            segment.tOut = t;
-            segment.scalarOut = scalar;
+            segment.tOut = crossing->t;
+            segment.scalarOut = crossing->scalar;
             left = true;
         }
     }

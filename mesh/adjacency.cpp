@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Faces are matched in buckets by their smallest vertex: two passes over the cells (count, fill) build the buckets
-/// as in a counting sort, then every bucket is sorted on its own. No hash table, 4 bytes per face, any number of
-/// threads, and the result does not depend on how the threads ran.
+/// Faces are matched in buckets by their smallest vertex, and every bucket is sorted on its own. No hash table, 4 bytes
+/// per face, any number of threads, and the result does not depend on how the threads ran.
 #include <mesh/adjacency.h>
 
 #include <algorithm>
-#include <atomic>
-#include <memory>
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+
+#include <mesh/vertex_buckets.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -84,45 +83,20 @@ void linkBucket(const std::vector<FaceEntry>& bucket, Adjacency& adjacency, Coun
 /// `FaceId` numbers faces as 4 · cell + k: 32 bits where they suffice, as this is the largest array here.
 template <class FaceId>
 void linkFaces(const std::vector<Tetrahedron>& cells, std::size_t pointCount, Adjacency& adjacency) {
-    using Range = tbb::blocked_range<std::size_t>;
-    constexpr std::size_t grain = 8192;
-    // ends[p] is first the size of bucket p, then its start, and after filling its end.
-    const auto ends = std::make_unique<std::atomic<FaceId>[]>(pointCount);
-    tbb::parallel_for(Range(0, cells.size(), grain), [&](const Range& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            for (std::size_t k = 0; k < 4; ++k) {
-                ends[smallestVertex(cells[i], k)].fetch_add(1, std::memory_order_relaxed);
-            }
-        }
-    });
-    FaceId start = 0;
-    for (std::size_t p = 0; p < pointCount; ++p) {
-        const FaceId size = ends[p].load(std::memory_order_relaxed);
-        ends[p].store(start, std::memory_order_relaxed);
-        start += size;
-    }
-    const auto faces = std::make_unique_for_overwrite<FaceId[]>(4 * cells.size());
-    tbb::parallel_for(Range(0, cells.size(), grain), [&](const Range& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            for (std::size_t k = 0; k < 4; ++k) {
-                const FaceId slot = ends[smallestVertex(cells[i], k)].fetch_add(1, std::memory_order_relaxed);
-                faces[slot] = static_cast<FaceId>(4 * i + k);
-            }
-        }
-    });
+    const VertexBuckets<FaceId> buckets(4 * cells.size(), pointCount,
+                                        [&](std::size_t face) { return smallestVertex(cells[face >> 2], face & 3); });
     struct Worker {
         std::vector<FaceEntry> bucket;
         Counts counts;
     };
     tbb::enumerable_thread_specific<Worker> workers;
-    tbb::parallel_for(Range(0, pointCount, grain / 8), [&](const Range& range) {
+    using Range = tbb::blocked_range<std::size_t>;
+    tbb::parallel_for(Range(0, pointCount, 1024), [&](const Range& range) {
         Worker& worker = workers.local();
         for (std::size_t p = range.begin(); p != range.end(); ++p) {
-            const std::size_t begin = p == 0 ? 0 : static_cast<std::size_t>(ends[p - 1].load(std::memory_order_relaxed));
-            const std::size_t end = static_cast<std::size_t>(ends[p].load(std::memory_order_relaxed));
             worker.bucket.clear();
-            for (std::size_t slot = begin; slot < end; ++slot) {
-                const std::uint64_t id = faces[slot];
+            for (std::size_t slot = buckets.begin(p); slot < buckets.end(p); ++slot) {
+                const std::uint64_t id = buckets.item(slot);
                 const SortedFace face = sortedFace(cells[id >> 2], id & 3);
                 worker.bucket.push_back({std::uint64_t{face.middle} << 32 | face.high, id, face.odd});
             }

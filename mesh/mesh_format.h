@@ -5,17 +5,20 @@
 
 #include <string>
 
+#include <mesh/cell_soup.h>
 #include <mesh/read_mesh.h>
 
 namespace tetralux::mesh {
 
 struct MeshFormat {
-    const char* name;                                  ///< for people: "generated field"
-    const char* sources;                               ///< what to give, for error messages: "bucky:N"
-    bool (*accepts)(const std::string& source);        ///< by the name alone, without opening anything
-    ReadResult (*read)(const std::string& source, const ReadOptions& options);
+    const char* name;     ///< for people: "VTK XML"
+    const char* sources;  ///< what to give, for error messages: ".vtu .pvtu"
+    bool (*accepts)(const std::string& source);  ///< by the name alone, without opening anything
+    /// \throws std::runtime_error naming the source, what is wrong and what would mend it.
+    CellSoup (*read)(const std::string& source, const ReadOptions& options);
 };
 
-extern const MeshFormat generatedFormat;
+extern const MeshFormat vtkXmlFormat;
+extern const MeshFormat legacyVtkFormat;
 
 }  // namespace tetralux::mesh

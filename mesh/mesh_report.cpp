@@ -29,6 +29,8 @@ std::string defectName(Defect defect) {
             return "hidden cell";
         case Defect::UnsupportedCell:
             return "unsupported cell";
+        case Defect::FoldedCell:
+            return "folded cell";
     }
     return "unnamed defect";
 }

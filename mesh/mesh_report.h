@@ -23,6 +23,7 @@ enum class Defect {
     CoincidentPoint,
     HiddenCell,
     UnsupportedCell,
+    FoldedCell,  ///< part of it lies inside out
 };
 
 std::string defectName(Defect defect);

@@ -2,50 +2,62 @@
 #include <mesh/read_mesh.h>
 
 #include <array>
-#include <filesystem>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include <mesh/file_checks.h>
 #include <mesh/mesh_format.h>
+#include <mesh/procedural_field.h>
+#include <mesh/validation.h>
 
 namespace tetralux::mesh {
 namespace {
 
 // One line per format; the first that accepts a source reads it.
 const std::array formats{
-    &generatedFormat,
+    &vtkXmlFormat,
+    &legacyVtkFormat,
 };
 
 std::string knownSources() {
     std::string list;
     for (const MeshFormat* format : formats) {
-        list += fmt::format("{}{}", list.empty() ? "" : ", ", format->sources);
+        list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", format->name, format->sources);
     }
     return list;
 }
 
-[[noreturn]] void refuseUnknown(const std::string& source) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(source, ignored)) {
-        throw std::runtime_error(fmt::format("{}: is a directory; give a mesh file", source));
+ReadResult generate(const ProceduralSource& source) {
+    ReadResult result;
+    result.mesh = sampleOnGrid(proceduralField(source.name, source.n), source.n);
+    result.report.cellsRead = result.mesh.cells.size();
+    result.report.cellTypes["tetrahedron"] = result.mesh.cells.size();
+    return result;
+}
+
+ReadResult readFile(const MeshFormat& format, const std::string& source, const ReadOptions& options) {
+    CellSoup soup = format.read(source, options);
+    try {
+        return tetMeshFromSoup(std::move(soup), options);
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(fmt::format("{}: {}", source, error.what()));
     }
-    if (!std::filesystem::exists(source, ignored)) {
-        throw std::runtime_error(
-            fmt::format("{}: no such file; give a mesh file or a generated field (bucky:32)", source));
-    }
-    throw std::runtime_error(fmt::format("{}: unknown mesh format; give one of {}", source, knownSources()));
 }
 
 }  // namespace
 
 ReadResult readMesh(const std::string& source, const ReadOptions& options) {
+    if (const auto generated = parseProceduralSource(source)) {
+        return generate(*generated);
+    }
     for (const MeshFormat* format : formats) {
         if (format->accepts(source)) {
-            return format->read(source, options);
+            return readFile(*format, source, options);
         }
     }
-    refuseUnknown(source);
+    checkReadable(source);
+    throw std::runtime_error(fmt::format("{}: unknown kind of mesh; give one of {}", source, knownSources()));
 }
 
 }  // namespace tetralux::mesh

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <mesh/cell_decomposition.h>
+
+#include <algorithm>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <mesh/cell_types.h>
+#include <mesh/cone_decomposition.h>
+#include <mesh/face_triangulation.h>
+#include <mesh/orientation.h>
+#include <mesh/polyhedron_surface.h>
+
+namespace tetralux::mesh {
+namespace {
+
+/// The tetrahedron of points[at], …, turned round if need be. \returns Good, Inverted or Flat.
+CellVerdict orientTetrahedron(const CellSoup& soup, std::uint64_t at, Tetrahedron& cell) {
+    std::copy_n(soup.connectivity.begin() + static_cast<std::ptrdiff_t>(at), 4, cell.begin());
+    const int side = orientation(soup.points[cell[0]], soup.points[cell[1]], soup.points[cell[2]], soup.points[cell[3]]);
+    if (side < 0) {
+        std::swap(cell[2], cell[3]);
+    }
+    return side > 0 ? CellVerdict::Good : side < 0 ? CellVerdict::Inverted : CellVerdict::Flat;
+}
+
+/// A mesh of nothing but tetrahedra needs no lists in between.
+Decomposition takeTetrahedra(const CellSoup& soup, std::vector<CellVerdict>& verdicts) {
+    Decomposition result;
+    result.cells.resize(verdicts.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, verdicts.size(), 16384),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                              if (isKept(verdicts[i])) {
+                                  verdicts[i] = orientTetrahedron(soup, soup.offsets[i], result.cells[i]);
+                              }
+                          }
+                      });
+    if (std::all_of(verdicts.begin(), verdicts.end(), isKept)) {
+        return result;
+    }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < verdicts.size(); ++i) {
+        if (isKept(verdicts[i])) {
+            result.cells[kept++] = result.cells[i];
+            result.parents.push_back(static_cast<std::uint32_t>(i));
+        }
+    }
+    result.cells.resize(kept);
+    return result;
+}
+
+/// Leaves out points that repeat their predecessor: a collapsed edge.
+void removeRepeats(std::vector<std::uint32_t>& polygon) {
+    polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
+    while (polygon.size() > 1 && polygon.front() == polygon.back()) {
+        polygon.pop_back();
+    }
+}
+
+/// The faces of `cell` without collapsed edges and faces.
+void collectFaces(const CellSoup& soup, std::size_t cell, std::vector<std::vector<std::uint32_t>>& faces) {
+    std::size_t count = 0;
+    forEachFace(soup, cell, [&](std::span<const std::uint32_t> face) {
+        if (faces.size() == count) {
+            faces.emplace_back();
+        }
+        faces[count].assign(face.begin(), face.end());
+        removeRepeats(faces[count]);
+        if (faces[count].size() >= 3) {
+            ++count;
+        }
+    });
+    faces.resize(count);
+}
+
+/// Whether writers agree on which way round cells of this type are numbered.
+bool hasAgreedOrientation(std::uint8_t type) { return type != cell_type::wedge && type != cell_type::polyhedron; }
+
+CellVerdict decomposeCell(const CellSoup& soup, std::size_t cell, const FaceTriangulation& triangulation, ConeOutput& out) {
+    const std::uint8_t type = soup.types[cell];
+    if (type == cell_type::tetrahedron) {
+        Tetrahedron tetrahedron;
+        const CellVerdict verdict = orientTetrahedron(soup, soup.offsets[cell], tetrahedron);
+        if (isKept(verdict)) {
+            out.cells.push_back(tetrahedron);
+        }
+        return verdict;
+    }
+    thread_local std::vector<std::vector<std::uint32_t>> faces;
+    thread_local std::vector<Triangle> surface;
+    collectFaces(soup, cell, faces);
+    if (type == cell_type::polyhedron && !makeFacesAgree(faces)) {
+        return CellVerdict::Unsupported;
+    }
+    surface.clear();
+    for (const std::vector<std::uint32_t>& face : faces) {
+        triangulation.cut(face, surface);
+    }
+    return coneDecomposition(soup.points, surface, hasAgreedOrientation(type), out);
+}
+
+struct Block {
+    ConeOutput out;
+    std::vector<std::uint32_t> parents;
+};
+
+Block decomposeBlock(const CellSoup& soup, std::size_t begin, std::size_t end, const FaceTriangulation& triangulation,
+                     std::vector<CellVerdict>& verdicts) {
+    Block block;
+    block.out.firstCentre = static_cast<std::uint32_t>(soup.points.size());
+    for (std::size_t cell = begin; cell < end; ++cell) {
+        if (isKept(verdicts[cell])) {
+            verdicts[cell] = decomposeCell(soup, cell, triangulation, block.out);
+            block.parents.resize(block.out.cells.size(), static_cast<std::uint32_t>(cell));
+        }
+    }
+    return block;
+}
+
+/// Puts the blocks one behind the other, renumbers their new points and frees them on the way.
+Decomposition joinBlocks(std::vector<Block>& blocks, CellSoup& soup) {
+    Decomposition result;
+    std::size_t cells = 0;
+    for (const Block& block : blocks) {
+        cells += block.out.cells.size();
+    }
+    result.cells.reserve(cells);
+    result.parents.reserve(cells);
+    PointBlends centres;
+    const std::uint32_t first = static_cast<std::uint32_t>(soup.points.size());
+    for (Block& block : blocks) {
+        const std::uint32_t shift = static_cast<std::uint32_t>(centres.size());
+        for (Tetrahedron cell : block.out.cells) {
+            for (PointIndex& p : cell) {
+                p += p >= first ? shift : 0;
+            }
+            result.cells.push_back(cell);
+        }
+        result.parents.insert(result.parents.end(), block.parents.begin(), block.parents.end());
+        centres.append(block.out.centres);
+        block = Block{};
+    }
+    appendBlendedPoints(soup, centres);
+    return result;
+}
+
+}  // namespace
+
+Decomposition decomposeCells(CellSoup& soup, std::vector<CellVerdict>& verdicts) {
+    if (std::all_of(soup.types.begin(), soup.types.end(), [](std::uint8_t t) { return t == cell_type::tetrahedron; })) {
+        return takeTetrahedra(soup, verdicts);
+    }
+    const FaceTriangulation triangulation(soup, verdicts);
+    constexpr std::size_t blockSize = 8192;
+    std::vector<Block> blocks((verdicts.size() + blockSize - 1) / blockSize);
+    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+        const std::size_t end = std::min(verdicts.size(), (i + 1) * blockSize);
+        blocks[i] = decomposeBlock(soup, i * blockSize, end, triangulation, verdicts);
+    });
+    return joinBlocks(blocks, soup);
+}
+
+}  // namespace tetralux::mesh

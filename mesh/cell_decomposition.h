@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// Linear solids of any type to tetrahedra that conform across shared faces.
+///
+/// Every face is cut into triangles (`face_triangulation.h`); the cell is then a cone: one of its points, joined to all
+/// triangles that do not touch it. With faces cut by the smallest-number rule the smallest number of the cell always
+/// serves for planar faces: 6 tetrahedra for a hexahedron, 3 for a wedge, 2 for a pyramid (Dompierre et al. 1999). Where
+/// warped faces or neighbours' diagonals leave no such point, the apex is a new point inside the cell, on which a field
+/// that is linear over the cell keeps its value.
+#pragma once
+
+#include <vector>
+
+#include <mesh/cell_soup.h>
+#include <mesh/soup_checks.h>
+#include <mesh/tet_mesh.h>
+
+namespace tetralux::mesh {
+
+struct Decomposition {
+    std::vector<Tetrahedron> cells;      ///< every one certainly of positive volume
+    std::vector<std::uint32_t> parents;  ///< source cell of each; empty when tetrahedron i is cell i of the source
+};
+
+/// Takes the kept cells of `soup` apart, in parallel. Adds points to `soup` where it needs them and sets verdicts to
+/// Inverted, Folded, Flat or Unsupported (an open polyhedron) as it finds them. Cells must have passed `classifyCells`, and curved
+/// ones have become linear.
+Decomposition decomposeCells(CellSoup& soup, std::vector<CellVerdict>& verdicts);
+
+}  // namespace tetralux::mesh

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// What a reader returns: cells of any type, unchecked. Only `validation.h` makes a mesh of it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <mesh/field.h>
+
+namespace tetralux::mesh {
+
+/// Mixed cells in the numbering of VTK's cell types (`cell_types.h` names them). Nothing is promised: indices may
+/// be out of range, positions not finite, arrays of the wrong length.
+struct CellSoup {
+    std::vector<glm::dvec3> points;           ///< mesh units
+    std::vector<std::uint8_t> types;          ///< VTK cell type of each cell
+    std::vector<std::uint64_t> offsets;       ///< cell i has connectivity[offsets[i] … offsets[i + 1]); one more than cells
+    std::vector<std::uint32_t> connectivity;  ///< point numbers; `invalidPoint` for one that 32 bits cannot hold
+
+    /// Polyhedra only, else empty: cell i has faceStream[faceOffsets[i] … faceOffsets[i + 1]), which holds for each of
+    /// its faces the number of points and then these.
+    std::vector<std::uint64_t> faceOffsets;
+    std::vector<std::uint32_t> faceStream;
+
+    std::vector<Field> fields;
+    std::vector<std::uint8_t> hidden;  ///< 1 for a ghost or blanked cell; empty when there is none
+
+    static constexpr std::uint32_t invalidPoint = 0xffffffffu;
+};
+
+/// Adds a cell to `soup` (offsets get their leading 0 with the first).
+template <class Points>
+void appendCell(CellSoup& soup, std::uint8_t type, const Points& points) {
+    if (soup.offsets.empty()) {
+        soup.offsets.push_back(0);
+    }
+    soup.types.push_back(type);
+    soup.connectivity.insert(soup.connectivity.end(), std::begin(points), std::end(points));
+    soup.offsets.push_back(soup.connectivity.size());
+}
+
+}  // namespace tetralux::mesh

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// What can be said of each cell of a CellSoup on its own, before any is taken apart.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <mesh/cell_soup.h>
+#include <mesh/mesh_report.h>
+
+namespace tetralux::mesh {
+
+enum class CellVerdict : std::uint8_t {
+    Good,
+    Inverted,           ///< kept, turned round
+    Folded,             ///< kept but for the parts of it that lie inside out
+    LowDimension,       ///< a point, line or surface cell
+    Hidden,             ///< ghost or blanked
+    IndexOutOfRange,
+    NonFinitePosition,
+    Unsupported,        ///< unknown type, or a number of points that its type does not have
+    Flat,
+};
+
+inline bool isKept(CellVerdict verdict) { return verdict <= CellVerdict::Folded; }
+
+/// Makes sure that the arrays of `soup` fit together, so that nothing later reads outside them.
+/// \throws std::runtime_error saying which does not.
+void checkStructure(const CellSoup& soup);
+
+/// A verdict for each cell from its type and point numbers and positions (not yet Inverted, Folded or Flat), in
+/// parallel. Needs `checkStructure`.
+std::vector<CellVerdict> classifyCells(const CellSoup& soup);
+
+/// Counts cells, types, verdicts and points that no cell names into `report`.
+void reportCells(const CellSoup& soup, const std::vector<CellVerdict>& verdicts, MeshReport& report);
+
+/// Counts points below `pointCount` (the source's own, not those that subdivision added) that no cell names.
+void reportUnusedPoints(const CellSoup& soup, std::size_t pointCount, MeshReport& report);
+
+}  // namespace tetralux::mesh

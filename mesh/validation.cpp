@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <mesh/validation.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <mesh/cell_decomposition.h>
+#include <mesh/duplicate_cells.h>
+#include <mesh/soup_checks.h>
+
+namespace tetralux::mesh {
+namespace {
+
+
+/// Drops repeated tetrahedra. A source cell is counted once, however many tetrahedra it became.
+void dropDuplicates(Decomposition& decomposition, std::size_t pointCount, MeshReport& report) {
+    const std::vector<std::uint8_t> duplicate = findDuplicateCells(decomposition.cells, pointCount);
+    if (duplicate.empty()) {
+        return;
+    }
+    if (decomposition.parents.empty()) {
+        decomposition.parents.resize(decomposition.cells.size());
+        for (std::size_t i = 0; i < decomposition.parents.size(); ++i) {
+            decomposition.parents[i] = static_cast<std::uint32_t>(i);
+        }
+    }
+    std::size_t kept = 0;
+    std::uint64_t lastCounted = ~std::uint64_t{0};
+    for (std::size_t i = 0; i < decomposition.cells.size(); ++i) {
+        const std::uint32_t parent = decomposition.parents[i];
+        if (duplicate[i] == 0) {
+            decomposition.cells[kept] = decomposition.cells[i];
+            decomposition.parents[kept++] = parent;
+        } else if (parent != lastCounted) {
+            report.add(Defect::DuplicateCell, parent);
+            ++report.skipped[defectName(Defect::DuplicateCell)];
+            lastCounted = parent;
+        }
+    }
+    decomposition.cells.resize(kept);
+    decomposition.parents.resize(kept);
+}
+
+/// Values of the tetrahedra's parents in place of the parents' own.
+void spreadCellField(Field& field, const Decomposition& decomposition) {
+    if (decomposition.parents.empty()) {
+        return;
+    }
+    const std::size_t components = static_cast<std::size_t>(field.components);
+    std::vector<double> values(decomposition.cells.size() * components);
+    tbb::parallel_for(std::size_t{0}, decomposition.cells.size(), [&](std::size_t i) {
+        std::copy_n(field.values.data() + decomposition.parents[i] * components, components, values.data() + i * components);
+    });
+    field.values = std::move(values);
+}
+
+/// Removes points that no tetrahedron uses; the order of the others stays.
+void dropUnusedPoints(TetMesh& mesh) {
+    constexpr PointIndex unused = 0xffffffffu;
+    std::vector<PointIndex> renumbered(mesh.positions.size(), unused);
+    for (const Tetrahedron& cell : mesh.cells) {
+        for (const PointIndex p : cell) {
+            renumbered[p] = 0;
+        }
+    }
+    PointIndex count = 0;
+    for (PointIndex& p : renumbered) {
+        if (p != unused) {
+            p = count++;
+        }
+    }
+    if (count == mesh.positions.size()) {
+        return;
+    }
+    for (Field& field : mesh.fields) {
+        if (field.association == Association::Point) {
+            const std::size_t components = static_cast<std::size_t>(field.components);
+            for (std::size_t p = 0; p < renumbered.size(); ++p) {
+                if (renumbered[p] != unused) {
+                    std::copy_n(field.values.data() + p * components, components,
+                                field.values.data() + renumbered[p] * components);
+                }
+            }
+            field.values.resize(count * components);
+        }
+    }
+    for (std::size_t p = 0; p < renumbered.size(); ++p) {
+        if (renumbered[p] != unused) {
+            mesh.positions[renumbered[p]] = mesh.positions[p];
+        }
+    }
+    mesh.positions.resize(count);
+    tbb::parallel_for(std::size_t{0}, mesh.cells.size(), [&](std::size_t i) {
+        for (PointIndex& p : mesh.cells[i]) {
+            p = renumbered[p];
+        }
+    });
+}
+
+[[noreturn]] void refuseEmpty(const MeshReport& report) {
+    if (report.cellsRead == 0) {
+        throw std::runtime_error("holds no cells; give a mesh with at least one solid cell");
+    }
+    std::string reasons;
+    bool onlySurface = true;
+    for (const auto& [reason, count] : report.skipped) {
+        reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, reason);
+        onlySurface = onlySurface && reason.starts_with("not solid");
+    }
+    throw std::runtime_error(fmt::format("no solid cell is left of {}: {}; {}", report.cellsRead, reasons,
+                                         onlySurface ? "make tetrahedra of the surface with `tetralux mesh`"
+                                                     : "mend the cells or export the mesh again"));
+}
+
+}  // namespace
+
+ReadResult tetMeshFromSoup(CellSoup soup, const ReadOptions&) {
+    checkStructure(soup);
+    ReadResult result;
+    std::vector<CellVerdict> verdicts = classifyCells(soup);
+    reportUnusedPoints(soup, soup.points.size(), result.report);
+    Decomposition decomposition = decomposeCells(soup, verdicts);
+    reportCells(soup, verdicts, result.report);
+    soup.types = {};
+    soup.offsets = {};
+    soup.connectivity = {};
+    soup.faceOffsets = {};
+    soup.faceStream = {};
+    verdicts = {};
+    dropDuplicates(decomposition, soup.points.size(), result.report);
+    if (decomposition.cells.empty()) {
+        refuseEmpty(result.report);
+    }
+    for (Field& field : soup.fields) {
+        if (field.association == Association::Cell) {
+            spreadCellField(field, decomposition);
+        }
+    }
+    result.mesh = {std::move(soup.points), std::move(decomposition.cells), std::move(soup.fields)};
+    dropUnusedPoints(result.mesh);
+    return result;
+}
+
+}  // namespace tetralux::mesh

@@ -165,6 +165,46 @@ SegmentResult ExactIntegral::segment(double front, double back, double length, I
     return sum;
 }
 
+ExactIntegral::PointValue ExactIntegral::valueFromAbove(double scalar) const {
+    return valueAt(pieces_[pieceFromAbove(scalar)], scalar);
+}
+
+ExactIntegral::PointValue ExactIntegral::valueFromBelow(double scalar) const {
+    return valueAt(pieces_[pieceFromBelow(scalar)], scalar);
+}
+
+double ExactIntegral::largestExtinction(double low, double high) const {
+    double largest = std::max(valueFromAbove(low).extinction, valueFromBelow(high).extinction);
+    for (const Piece& piece : pieces_) {
+        if (piece.low > low && piece.low < high) largest = std::max(largest, piece.extinctionLow);
+        if (piece.high > low && piece.high < high) largest = std::max(largest, piece.extinctionHigh);
+    }
+    return largest;
+}
+
+glm::dvec3 ExactIntegral::nearestVisibleColor(double low, double high, double limitLow, double limitHigh) const {
+    const auto visible = [](const Piece& piece) { return piece.extinctionLow > 0.0 || piece.extinctionHigh > 0.0; };
+    double distanceBelow = infinity, distanceAbove = infinity;
+    glm::dvec3 below{0.0}, above{0.0};
+    for (std::size_t i = pieceFromBelow(low) + 1; i-- > 0 && pieces_[i].high > limitLow;) {
+        if (!visible(pieces_[i])) continue;
+        const double at = std::min(low, pieces_[i].high);
+        distanceBelow = low - at;
+        below = valueAt(pieces_[i], at).color;
+        break;
+    }
+    for (std::size_t i = pieceFromAbove(high); i < pieces_.size() && pieces_[i].low < limitHigh; ++i) {
+        if (!visible(pieces_[i])) continue;
+        const double at = std::max(high, pieces_[i].low);
+        distanceAbove = at - high;
+        above = valueAt(pieces_[i], at).color;
+        break;
+    }
+    if (distanceBelow < distanceAbove) return below;
+    if (distanceAbove < distanceBelow) return above;
+    return std::isinf(distanceBelow) ? function_.colorAt(0.5 * (low + high)) : 0.5 * (below + above);
+}
+
 double ExactIntegral::extinctionIntegral(double scalar) const {
     const std::size_t index = pieceFromAbove(scalar);
     const Piece& piece = pieces_[index];

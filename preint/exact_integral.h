@@ -43,6 +43,20 @@ public:
 
     const TransferFunction& function() const { return function_; }
 
+    struct PointValue {
+        glm::dvec3 color;
+        double extinction;
+    };
+    PointValue valueFromAbove(double scalar) const;  ///< they differ at jumps only
+    PointValue valueFromBelow(double scalar) const;
+
+    /// The largest extinction anywhere in [low, high].
+    double largestExtinction(double low, double high) const;
+
+    /// The colour that a segment over [low, high] without extinction takes on as soon as it grows: that of the nearest
+    /// visible scalar within [limitLow, limitHigh], of the middle when there is none.
+    glm::dvec3 nearestVisibleColor(double low, double high, double limitLow, double limitHigh) const;
+
 private:
     struct Piece {  // between two neighbouring nodes of colour or extinction
         double low, high;
@@ -51,11 +65,6 @@ private:
         glm::dvec3 colorLow, colorHigh;
         double extinctionIntegralLow;  // Θ(low); of the first piece, Θ(high) = 0
     };
-    struct PointValue {
-        glm::dvec3 color;
-        double extinction;
-    };
-
     std::size_t pieceFromAbove(double scalar) const;  // low ≤ scalar < high
     std::size_t pieceFromBelow(double scalar) const;  // low < scalar ≤ high
     static PointValue valueAt(const Piece& piece, double scalar);

@@ -5,3 +5,4 @@
 
 float select(bool condition, float ifTrue, float ifFalse) { return condition ? ifTrue : ifFalse; }
 vec3 select(bool condition, vec3 ifTrue, vec3 ifFalse) { return condition ? ifTrue : ifFalse; }
+int select(bool condition, int ifTrue, int ifFalse) { return condition ? ifTrue : ifFalse; }

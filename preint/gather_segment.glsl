@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What light meets along one segment, by table look-up: a segment is cut at the interfaces that it crosses (isosurfaces and jumps), so
+// that these stay exact, and gathered front to back. Needs preint/table_lookup.glsl and, when there are interfaces,
+//
+//   TETRALUX_INTERFACE_COUNT                 how many (TETRALUX_INTERFACES itself unless defined)
+//   real interfaceValue[]                    ascending
+//   vec4 interfaceLayer[]                    colour, optical depth −ln(1 − α₀); depth 0: only a jump
+//   int zoneAfter[]                          zone of the table above the first i interfaces, one more than there are interfaces
+
+#ifndef TETRALUX_INTERFACE_COUNT
+#define TETRALUX_INTERFACE_COUNT TETRALUX_INTERFACES
+#endif
+
+// 1 − exp(−depth) with the relative precision of the type also for thin segments, whose sum it is that counts. The series errs by
+// depth⁵/720 < 5e-10 of its value below 0.05.
+TETRALUX_GLSL_FUNCTION real opacityOf(real depth) {
+    real series = depth * (real(1.0) - depth * (real(0.5) - depth * (real(1.0 / 6.0) - depth * (real(1.0 / 24.0) - depth * real(1.0 / 120.0)))));
+    return select(depth < real(0.05), series, real(1.0) - exp(-depth));
+}
+
+// A segment before silhouette and light.
+struct Gathered {
+    vec3 meanColor;       // C/α
+    real meanExtinction;  // of the smooth functions, per unit of scalar or length
+    real smoothDepth;     // optical depth of the smooth functions
+    real otherDepth;      // optical depth of isosurfaces
+};
+
+TETRALUX_GLSL_FUNCTION real smoothDepthOf(real meanExtinction, real front, real back, real segmentLength) {
+#if TETRALUX_SCALE_INVARIANT
+    return meanExtinction * abs(front - back);
+#else
+    return meanExtinction * segmentLength;
+#endif
+}
+
+TETRALUX_GLSL_FUNCTION Gathered gatherWithin(int zone, real front, real back, real segmentLength) {
+    vec4 entry = tableEntry(zone, front, back, segmentLength);
+    Gathered part;
+    part.meanColor = vec3(entry.x, entry.y, entry.z);
+    part.meanExtinction = entry.w;
+    part.smoothDepth = smoothDepthOf(entry.w, front, back, segmentLength);
+    part.otherDepth = real(0.0);
+    return part;
+}
+
+#if TETRALUX_INTERFACES
+// The interfaces crossed are those with low < v ≤ high: (front < v) ≠ (back < v).
+TETRALUX_GLSL_FUNCTION Gathered gatherSegment(real front, real back, real segmentLength) {
+    real low = min(front, back);
+    real high = max(front, back);
+    int first = 0;
+    int end = 0;
+    for (int i = 0; i < TETRALUX_INTERFACE_COUNT; ++i) {
+        first += int(interfaceValue[i] <= low);
+        end += int(interfaceValue[i] <= high);
+    }
+    if (first == end) return gatherWithin(zoneAfter[first], front, back, segmentLength);
+
+    bool rising = front < back;
+    int crossed = end - first;
+    real lengthPerScalar = segmentLength / (high - low);
+    vec3 color = vec3(real(0.0));
+    vec3 thinColor = vec3(real(0.0));  // the limit of C for small depth
+    real transparency = real(1.0);
+    real smoothDepth = real(0.0);
+    real otherDepth = real(0.0);
+    real at = front;
+    for (int n = 0; n <= crossed; ++n) {
+        int next = select(rising, first + n, end - 1 - n);  // the interface that ends this part, unless it is the last
+        real to = back;
+        if (n < crossed) to = interfaceValue[next];
+        Gathered part = gatherWithin(zoneAfter[select(rising, next, next + 1)], at, to, abs(to - at) * lengthPerScalar);
+        real opacity = opacityOf(part.smoothDepth);
+        color += transparency * opacity * part.meanColor;
+        thinColor += part.smoothDepth * part.meanColor;
+        transparency *= real(1.0) - opacity;
+        smoothDepth += part.smoothDepth;
+        if (n < crossed) {
+            vec4 layer = interfaceLayer[next];
+            vec3 layerColor = vec3(layer.x, layer.y, layer.z);
+            opacity = opacityOf(layer.w);
+            color += transparency * opacity * layerColor;
+            thinColor += layer.w * layerColor;
+            transparency *= real(1.0) - opacity;
+            otherDepth += layer.w;
+        }
+        at = to;
+    }
+    real depth = smoothDepth + otherDepth;
+    Gathered sum;
+    if (depth > real(1e-12)) {
+        sum.meanColor = color / opacityOf(depth);
+    } else {  // thinner than that, order within the segment does not show
+        sum.meanColor = thinColor / max(depth, real(1e-36));
+    }
+    sum.meanExtinction = smoothDepth / (high - low);  // per unit of scalar: what the scale-invariant silhouette reads
+    sum.smoothDepth = smoothDepth;
+    sum.otherDepth = otherDepth;
+    return sum;
+}
+#else
+TETRALUX_GLSL_FUNCTION Gathered gatherSegment(real front, real back, real segmentLength) {
+    return gatherWithin(0, front, back, segmentLength);
+}
+#endif

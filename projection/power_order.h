@@ -24,7 +24,8 @@ class PowerOrder {
 public:
     PowerOrder(const mesh::ScalarMesh& mesh, const mesh::Adjacency& adjacency);
 
-    /// Inner faces at which the heights are not convex by more than rounding: 0 makes the order right across every face.
+    /// Inner faces at which the heights are not convex by more than rounding. 0 makes the order right
+    /// across every face, and with a convex boundary (boundaryIsConvex) right altogether.
     std::uint64_t failingFaces() const { return failingFaces_; }
 
     /// Heights of the mesh points, in squared mesh diagonals. The key of a cell is Σ λ_k(eye)·height[k] over its vertices (orthographic: with

@@ -259,7 +259,7 @@ void ReferenceRayCaster::renderPixels(const Camera& camera, const std::vector<st
     pass.renderAll();
 }
 
-std::vector<RaySegment> ReferenceRayCaster::segmentsOfPixel(const Camera& camera, int x, int y) const {
+std::vector<RaySegment> ReferenceRayCaster::segmentsAt(const Camera& camera, double x, double y) const {
     const RayFrame ray(pixelRay(cameraFrame(camera), x + rayShiftX, y + rayShiftY));
     std::vector<RaySegment> segments;
     for (std::size_t cell = 0; cell < scene_.mesh->cells.size(); ++cell)

@@ -39,8 +39,8 @@ public:
     /// Only the pixels named (y·width + x, ascending), written into `image`, which has the camera's size.
     void renderPixels(const Camera& camera, const std::vector<std::uint32_t>& pixels, Image& image) const;
 
-    /// The segments of one pixel's ray, sorted by depth: for tests and inspection. O(cells).
-    std::vector<RaySegment> segmentsOfPixel(const Camera& camera, int x, int y) const;
+    /// The segments of the ray through pixel coordinates (x, y), whole at pixel centres, sorted by depth: for tests and inspection. O(cells).
+    std::vector<RaySegment> segmentsAt(const Camera& camera, double x, double y) const;
 
 private:
     struct Pass;

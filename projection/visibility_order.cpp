@@ -21,38 +21,9 @@ struct VisibilitySorter::State {
 
     explicit State(const mesh::ScalarMesh& m)
         : mesh(m), adjacency(mesh::buildAdjacency(m.cells, m.positions.size())) {
-        cutFolds();
         boundary = boundaryFaces(adjacency);
-        convex = adjacency.nonManifoldFaces == 0 && boundaryIsConvex(mesh, boundary);
+        convex = adjacency.nonManifoldFaces == 0 && adjacency.foldedFaces == 0 && boundaryIsConvex(mesh, boundary);
         if (convex) boundary = {};
-    }
-
-    /// Cells on the same side of a common face overlap: they are no neighbours but two pieces of boundary.
-    void cutFolds() {
-        std::vector<std::pair<std::size_t, std::size_t>> folds;
-        for (std::size_t cell = 0; cell < adjacency.neighbours.size(); ++cell)
-            for (std::size_t k = 0; k < 4; ++k)
-                if (adjacency.neighbours[cell][k] != mesh::Adjacency::noNeighbour && isFold(cell, k))
-                    folds.emplace_back(cell, k);
-        for (const auto& [cell, k] : folds) adjacency.neighbours[cell][k] = mesh::Adjacency::noNeighbour;
-        adjacency.boundaryFaces += folds.size();
-    }
-
-    /// Whether the neighbour across face k runs around the face in the same sense, so that it lies on the same side.
-    bool isFold(std::size_t cell, std::size_t k) const {
-        auto facePoint = [&](std::size_t c, std::size_t face, std::size_t corner) {
-            return mesh.cells[c][static_cast<std::size_t>(mesh::faceVertices[face][corner % 3])];
-        };
-        const std::size_t other = adjacency.neighbours[cell][k];
-        for (std::size_t face = 0; face < 4; ++face) {
-            if (adjacency.neighbours[other][face] != cell) continue;
-            for (std::size_t corner = 0; corner < 3; ++corner)
-                if (facePoint(other, face, corner) == facePoint(cell, k, 0) &&
-                    facePoint(other, face, corner + 1) == facePoint(cell, k, 1) &&
-                    facePoint(other, face, corner + 2) == facePoint(cell, k, 2))
-                    return true;
-        }
-        return false;
     }
 };
 

@@ -37,7 +37,7 @@ OrderCheck checkAgainstRays(const mesh::ScalarMesh& m, const Camera& camera, con
         for (int x = 0; x < camera.width; x += 2) {
             if (std::binary_search(doubtful.begin(), doubtful.end(), static_cast<std::uint32_t>(y * camera.width + x)))
                 continue;
-            const auto segments = caster.segmentsOfPixel(camera, x, y);
+            const auto segments = caster.segmentsAt(camera, x, y);
             for (std::size_t i = 1; i < segments.size(); ++i) {
                 ++check.pairs;
                 check.wrong += rank[segments[i].cell] < rank[segments[i - 1].cell] ? 1 : 0;
@@ -177,23 +177,22 @@ TEST(PowerOrder, SettlesTheCosphericalCellsOfAGrid) {
     }
 }
 
-TEST(PowerOrder, OrdersAJitteredGridWhereItSaysSo) {
-    const mesh::ScalarMesh m = jitteredBoxMesh(7, 0.1, 9, plain);
-    const PowerOrder power(m, mesh::buildAdjacency(m.cells, m.positions.size()));
-    EXPECT_EQ(power.failingFaces(), 0u);
-    for (const Camera& camera : views()) EXPECT_EQ(checkAgainstRays(m, camera, powerSorted(m, power, camera)).wrong, 0);
-}
-
-TEST(PowerOrder, CountsFacesWhereNoHeightsExist) {
-    // a twisted prism (Schönhardt's, filled about an inner point with a twist of its three side walls) has a cyclic view and so
-    // cannot have convex heights; here the cycle itself: three slivers around an axis joined face to face do not
-    // exist in a regular complex. A folded pair is the smallest mesh whose face can never be convex.
-    mesh::ScalarMesh m = unitTetrahedron({0, 1, 0, 1});
-    m.positions.push_back({0.3, 0.3, 0.3});  // on the same side of face (1, 2, 3) as point 0
-    m.scalars.push_back(0);
-    m.cells.push_back({4, 1, 2, 3});
-    m = finished(std::move(m));
-    EXPECT_GT(PowerOrder(m, mesh::buildAdjacency(m.cells, m.positions.size())).failingFaces(), 0u);
+TEST(PowerOrder, OrdersJitteredGridsWheneverItSaysSo) {
+    int certified = 0, refused = 0;
+    for (double share : {0.1, 0.2, 0.3, 0.45})
+        for (unsigned seed : {1u, 2u}) {
+            const mesh::ScalarMesh m = jitteredBoxMesh(6, share, seed, plain);
+            const PowerOrder power(m, mesh::buildAdjacency(m.cells, m.positions.size()));
+            if (power.failingFaces() > 0) {
+                ++refused;
+                continue;
+            }
+            ++certified;
+            for (const Camera& camera : views())
+                EXPECT_EQ(checkAgainstRays(m, camera, powerSorted(m, power, camera)).wrong, 0) << share;
+        }
+    EXPECT_GE(certified, 2);
+    EXPECT_GE(refused, 1) << "half a cell of jitter turns cells over: no heights can order them";
 }
 
 TEST(RadixSort, SortsStably) {

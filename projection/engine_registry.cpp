@@ -7,6 +7,7 @@
 
 #include <projection/engine.h>
 #include <projection/exact_repair.h>
+#include <projection/gl_engine.h>
 #include <projection/reference_engine.h>
 
 namespace tetralux::projection {
@@ -20,6 +21,7 @@ struct RegisteredEngine {
 
 // The first one is what "auto" takes.
 constexpr std::array engines{
+    RegisteredEngine{"gl", makeGlEngine},
     RegisteredEngine{"reference", makeReferenceEngine},
 };
 

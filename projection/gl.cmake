@@ -18,14 +18,32 @@ target_include_directories(tetralux_glad SYSTEM PUBLIC ${glad_dir}/include)
 target_sources(tetralux_projection PRIVATE
   egl_context.cpp
   gl_cell_outline.cpp
+  gl_cell_program.cpp
+  gl_cell_stream.cpp
   gl_context.cpp
+  gl_engine.cpp
+  gl_frame_target.cpp
   gl_functions.cpp
   gl_program.cpp
+  gl_resolve.cpp
+  gl_sampler_probe.cpp
   osmesa_context.cpp
   shared_library.cpp
+  transfer_support.cpp
 )
 target_link_libraries(tetralux_projection PRIVATE tetralux_glad ${CMAKE_DL_LIBS})
 tetralux_embed_shaders(tetralux_projection FILES
+  preint/gather_segment.glsl
+  preint/glsl_prelude.glsl
+  preint/table_lookup.glsl
+  projection/cell_interval.glsl
+  projection/gl_cell.frag
   projection/gl_cell.vert
   projection/gl_cell_record.glsl
+  projection/gl_full_screen.vert
+  projection/gl_precision.glsl
+  projection/gl_sampler_probe.frag
+  projection/gl_segment.glsl
+  projection/gl_table.glsl
+  shading/cell_shading.glsl
 )

@@ -19,8 +19,7 @@ std::string oneLine(std::string log) {
 }
 
 std::string shaderSource(const GlDefines& defines, const GlShaderSource& source) {
-    std::string text = "#version 430 core\n";
-    for (const auto& [name, value] : defines) text += fmt::format("#define {} {}\n", name, value);
+    std::string text = "#version 430 core\n" + defines.text();
     int number = 0;
     for (const std::string_view file : source.files) {
         text += fmt::format("#line 1 {}\n{}\n", number++, glShaderText(file));  // the log says "number:line"

@@ -7,15 +7,24 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include <projection/gl_functions.h>
 
 namespace tetralux::projection {
 
-/// #define lines of one variant: (name, value).
-using GlDefines = std::vector<std::pair<std::string, int>>;
+/// #define lines of one variant: names and values as text.
+class GlDefines {
+public:
+    void set(const char* name, int value) { text_ += fmt::format("#define {} {}\n", name, value); }
+    void set(const char* name, double value) { text_ += fmt::format("#define {} {:.9e}\n", name, value); }
+    const std::string& text() const { return text_; }
+
+private:
+    std::string text_;
+};
 
 struct GlShaderSource {
     GLenum stage;

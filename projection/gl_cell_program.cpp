@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/gl_cell_program.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include <projection/transfer_support.h>
+
+namespace tetralux::projection {
+namespace {
+
+// Optical depth that stands for an opaque isosurface: exp(−1e4) is 0 in float, and a finite number can be scaled.
+constexpr double opaqueDepth = 1e4;
+
+int shaderMode(Mode mode) {
+    switch (mode) {
+        case Mode::Standard:
+        case Mode::ScaleInvariant: return 0;
+        case Mode::Mip: return 1;
+        case Mode::Average: return 2;
+        case Mode::FirstHit: return 3;
+    }
+    return 0;
+}
+
+// What tableZone[] holds (preint/table_lookup.glsl).
+glm::dvec2 shaderZone(const glm::dvec2& range) {
+    return {range.x, range.y > range.x ? 1.0 / (range.y - range.x) : 0.0};
+}
+
+GlDefines variant(const RenderSettings& settings, std::size_t supports, const preint::PreintegrationTable* table,
+                  bool orthographic, bool linearSampler) {
+    const auto& shading = settings.shading;
+    const bool looksUp = table != nullptr;
+    const bool scaleInvariant = integralOf(settings.mode) == preint::Integral::ScaleInvariant;
+    const bool silhouette = looksUp && shading.silhouette;
+    const bool length = settings.mode == Mode::Average || (looksUp && (!scaleInvariant || silhouette));
+    const int lights = looksUp ? static_cast<int>(shading.lights.size()) : 0;
+    GlDefines defines;
+    defines.set("TETRALUX_ORTHOGRAPHIC", orthographic);
+    defines.set("TETRALUX_MODE", shaderMode(settings.mode));
+    defines.set("TETRALUX_SCALE_INVARIANT", scaleInvariant);
+    defines.set("TETRALUX_SUPPORTS", settings.mode == Mode::FirstHit ? static_cast<int>(supports) : 0);
+    defines.set("TETRALUX_SILHOUETTE", silhouette);
+    defines.set("TETRALUX_LIGHTS", lights);
+    defines.set("TETRALUX_GRADIENT", silhouette || lights > 0);
+    defines.set("TETRALUX_LENGTH", length);
+    if (!looksUp) return defines;
+    const glm::dvec2 zone = shaderZone(table->zones.front());
+    defines.set("TETRALUX_INTERFACES", static_cast<int>(table->interfaces.size()));
+    defines.set("TETRALUX_ZONES", static_cast<int>(table->zones.size()));
+    defines.set("TETRALUX_ZONE_LOW", zone.x);
+    defines.set("TETRALUX_ZONE_PER_SCALAR", zone.y);
+    defines.set("TETRALUX_TABLE_SIZE", static_cast<double>(table->size));
+    defines.set("TETRALUX_TABLE_SLICES", static_cast<double>(table->slices));
+    defines.set("TETRALUX_TABLE_LENGTH_MAX", table->lengthMax);
+    defines.set("TETRALUX_TABLE_LENGTH_SCALE", table->lengthScale);
+    defines.set("TETRALUX_LINEAR_SAMPLER", linearSampler);
+    return defines;
+}
+
+std::vector<std::string_view> fragmentFiles(bool looksUp) {
+    std::vector<std::string_view> files{"preint/glsl_prelude.glsl", "projection/gl_precision.glsl",
+                                        "projection/cell_interval.glsl", "projection/gl_cell_record.glsl"};
+    if (looksUp) {
+        files.insert(files.end(), {"projection/gl_table.glsl", "preint/table_lookup.glsl", "preint/gather_segment.glsl",
+                                   "shading/cell_shading.glsl", "projection/gl_segment.glsl"});
+    }
+    files.push_back("projection/gl_cell.frag");
+    return files;
+}
+
+void setVector(const GlFunctions& gl, GLint location, const glm::dvec3& value) {
+    gl.Uniform3f(location, static_cast<float>(value.x), static_cast<float>(value.y), static_cast<float>(value.z));
+}
+
+}  // namespace
+
+bool modeLooksUp(Mode mode) {
+    return mode != Mode::Mip && mode != Mode::Average;
+}
+
+GlTableTexture::GlTableTexture(const GlFunctions& gl, const preint::PreintegrationTable& table)
+    : gl_(gl), target_(table.integral == preint::Integral::ScaleInvariant ? GL_TEXTURE_2D : GL_TEXTURE_3D) {
+    const GLsizei columns = table.size, rows = static_cast<GLsizei>(table.zones.size()) * table.size;
+    GLint largest = 0;
+    gl_.GetIntegerv(target_ == GL_TEXTURE_2D ? GL_MAX_TEXTURE_SIZE : GL_MAX_3D_TEXTURE_SIZE, &largest);
+    if (std::max({columns, rows, static_cast<GLsizei>(table.slices)}) > largest) {
+        throw std::runtime_error(fmt::format("pre-integration table of {} x {} x {} texels: this OpenGL renderer takes {} along an "
+                                             "axis; allow a larger table error", columns, rows, table.slices, largest));
+    }
+    gl_.GenTextures(1, &texture_);
+    gl_.BindTexture(target_, texture_);
+    if (target_ == GL_TEXTURE_2D) {
+        gl_.TexStorage2D(target_, 1, GL_RGBA32F, columns, rows);
+        gl_.TexSubImage2D(target_, 0, 0, 0, columns, rows, GL_RGBA, GL_FLOAT, table.texels.data());
+    } else {
+        gl_.TexStorage3D(target_, 1, GL_RGBA32F, columns, rows, table.slices);
+        gl_.TexSubImage3D(target_, 0, 0, 0, 0, columns, rows, table.slices, GL_RGBA, GL_FLOAT, table.texels.data());
+    }
+    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
+        gl_.TexParameteri(target_, axis, GL_CLAMP_TO_EDGE);
+    }
+    gl_.TexParameteri(target_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl_.TexParameteri(target_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    checkGl(gl_, "table texture");
+}
+
+void GlTableTexture::bind(GLuint unit) const {
+    gl_.ActiveTexture(GL_TEXTURE0 + unit);
+    gl_.BindTexture(target_, texture_);
+}
+
+GlCellProgram::GlCellProgram(const GlFunctions& gl, const RenderSettings& settings,
+                             const preint::TransferFunction& function, const preint::PreintegrationTable* table,
+                             bool orthographic, bool linearSampler)
+    : gl_(gl),
+      program_(gl, variant(settings, extinctionSupport(function).size(), table, orthographic, linearSampler),
+               {{GL_VERTEX_SHADER, {"projection/gl_cell.vert"}}, {GL_FRAGMENT_SHADER, fragmentFiles(table != nullptr)}}),
+      ndcPerPixel_(program_.uniform("ndcPerPixel")),
+      centre_(program_.uniform("centre")),
+      viewForward_(program_.uniform("viewForward")),
+      viewRight_(program_.uniform("viewRight")),
+      viewDown_(program_.uniform("viewDown")) {
+    program_.use();
+    setConstants(settings, extinctionSupport(function), table);
+    checkGl(gl_, "shader constants");
+}
+
+void GlCellProgram::setConstants(const RenderSettings& settings, const std::vector<glm::dvec2>& support,
+                                 const preint::PreintegrationTable* table) const {
+    std::vector<glm::vec2> supportFloats(support.begin(), support.end());
+    for (glm::vec2& interval : supportFloats) interval = glm::clamp(interval, -3e38f, 3e38f);
+    gl_.Uniform2fv(program_.uniform("support"), static_cast<GLsizei>(supportFloats.size()),
+                   reinterpret_cast<const float*>(supportFloats.data()));
+    const auto& shading = settings.shading;
+    std::vector<glm::vec3> lights;
+    for (const auto& light : shading.lights) lights.emplace_back(light.towards);
+    gl_.Uniform3fv(program_.uniform("lights"), static_cast<GLsizei>(lights.size()),
+                   reinterpret_cast<const float*>(lights.data()));
+    gl_.Uniform1f(program_.uniform("ambient"), static_cast<float>(shading.ambient));
+    gl_.Uniform1f(program_.uniform("exponent"), static_cast<float>(shading.exponent));
+    gl_.Uniform1f(program_.uniform("transmission"), shading.transmission ? 1.0f : 0.0f);
+    if (table == nullptr) return;
+
+    gl_.Uniform1i(program_.uniform("tableTexels"), 0);
+    std::vector<glm::vec2> zones;
+    for (const glm::dvec2& range : table->zones) zones.emplace_back(shaderZone(range));
+    gl_.Uniform2fv(program_.uniform("tableZone"), static_cast<GLsizei>(zones.size()),
+                   reinterpret_cast<const float*>(zones.data()));
+    std::vector<float> values;
+    std::vector<glm::vec4> layers;
+    std::vector<GLint> zoneAfter{table->interfaces.empty() ? 0 : table->interfaces.front().zoneBelow};
+    for (const preint::Interface& entry : table->interfaces) {
+        values.push_back(static_cast<float>(entry.value));
+        layers.emplace_back(glm::vec3(entry.color), static_cast<float>(std::min(-std::log1p(-entry.opacity), opaqueDepth)));
+        zoneAfter.push_back(entry.zoneAbove);
+    }
+    const auto count = static_cast<GLsizei>(values.size());
+    gl_.Uniform1fv(program_.uniform("interfaceValue"), count, values.data());
+    gl_.Uniform4fv(program_.uniform("interfaceLayer"), count, reinterpret_cast<const float*>(layers.data()));
+    gl_.Uniform1iv(program_.uniform("zoneAfter"), count + 1, zoneAfter.data());
+}
+
+void GlCellProgram::use(const CameraFrame& frame) const {
+    program_.use();
+    gl_.Uniform2f(ndcPerPixel_, 2.0f / static_cast<float>(frame.width), 2.0f / static_cast<float>(frame.height));
+    const glm::dvec2 centre = frame.centre - sampleShift;  // where the axis is, seen from the samples
+    gl_.Uniform2f(centre_, static_cast<float>(centre.x), static_cast<float>(centre.y));
+    setVector(gl_, viewForward_, frame.forward);
+    setVector(gl_, viewRight_, frame.perPixelRight);
+    setVector(gl_, viewDown_, frame.perPixelDown);
+}
+
+}  // namespace tetralux::projection

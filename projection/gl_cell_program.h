@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// Internal: the shader program of one scene and kind of camera, with all that it reads: table texture, interfaces, lights.
+#pragma once
+
+#include <memory>
+
+#include <preint/preintegration_table.h>
+#include <projection/camera.h>
+#include <projection/cell_setup.h>
+#include <projection/gl_program.h>
+#include <projection/scene.h>
+
+namespace tetralux::projection {
+
+/// Whether the mode composites segments, so that it needs a table (and, but for order-free functions, a visibility order).
+bool modeLooksUp(Mode mode);
+
+/// A pre-integration table as a texture, 2D or 3D, zones stacked along its rows.
+class GlTableTexture {
+public:
+    /// \throws std::runtime_error when the renderer has no texture of that size.
+    GlTableTexture(const GlFunctions& gl, const preint::PreintegrationTable& table);
+    ~GlTableTexture() { gl_.DeleteTextures(1, &texture_); }
+    GlTableTexture(const GlTableTexture&) = delete;
+    GlTableTexture& operator=(const GlTableTexture&) = delete;
+
+    void bind(GLuint unit) const;
+
+private:
+    const GlFunctions& gl_;
+    GLenum target_;
+    GLuint texture_ = 0;
+};
+
+class GlCellProgram {
+public:
+    /// `function` and `table` in scene units; `table` may be null for modes without. `linearSampler`: the texture
+    /// unit interpolates (gl_sampler_probe.h), else the shader does.
+    GlCellProgram(const GlFunctions& gl, const RenderSettings& settings, const preint::TransferFunction& function,
+                  const preint::PreintegrationTable* table, bool orthographic, bool linearSampler);
+
+    /// Makes it current for drawing from that camera.
+    void use(const CameraFrame& frame) const;
+
+private:
+    void setConstants(const RenderSettings& settings, const std::vector<glm::dvec2>& support,
+                      const preint::PreintegrationTable* table) const;
+
+    const GlFunctions& gl_;
+    GlProgram program_;
+    GLint ndcPerPixel_, centre_, viewForward_, viewRight_, viewDown_;
+};
+
+}  // namespace tetralux::projection

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/gl_engine.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include <glm/geometric.hpp>
+#include <projection/gl_cell_program.h>
+#include <projection/gl_cell_stream.h>
+#include <projection/gl_context.h>
+#include <projection/gl_frame_target.h>
+#include <projection/gl_resolve.h>
+#include <projection/gl_sampler_probe.h>
+#include <projection/transfer_support.h>
+#include <projection/visibility_order.h>
+
+namespace tetralux::projection {
+namespace {
+
+class Stopwatch {
+public:
+    /// Milliseconds since construction or the last call.
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        return std::chrono::duration<double, std::milli>(now - std::exchange(last_, now)).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// Everything that lives in the context, so that it can go while the context is current.
+struct GlState {
+    std::unique_ptr<GlFunctions> gl;
+    std::string renderer;
+    bool linearSampler = false;
+    std::optional<GlFrameTarget> target;
+    std::optional<GlCellStream> stream;
+    std::optional<GlTableTexture> table;
+    std::array<std::unique_ptr<GlCellProgram>, 2> programs;  // perspective, orthographic: made when first needed
+};
+
+/// Pixels by which outlines grow: rasterizers move vertices by up to half a step of their grid, and corners are float.
+double outlineMargin(const GlFunctions& gl, const CameraFrame& frame) {
+    GLint bits = 8;
+    gl.GetIntegerv(GL_SUBPIXEL_BITS, &bits);
+    return 2.0 * std::exp2(-std::clamp(bits, 4, 8)) + 4e-7 * std::max(frame.width, frame.height);
+}
+
+/// Outlines that reach farther than this beyond the image (pixels) are drawn as rectangles instead: rasterizers compute in fixed
+/// point.
+constexpr float farthestCorner = 4096.0f;
+
+bool liesNear(const CellOutline& outline, const CameraFrame& frame) {
+    return std::all_of(outline.begin(), outline.end(), [&](const glm::vec2& corner) {
+        return corner.x > -farthestCorner && corner.y > -farthestCorner &&
+               corner.x < static_cast<float>(frame.width) + farthestCorner &&
+               corner.y < static_cast<float>(frame.height) + farthestCorner;
+    });
+}
+
+/// The longest edge of any cell, scene units: no segment is longer.
+double longestEdge(const mesh::ScalarMesh& mesh, const SceneUnits& units) {
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, mesh.cells.size(), 4096), 0.0,
+        [&](const auto& range, double longest) {
+            for (std::size_t cell = range.begin(); cell != range.end(); ++cell) {
+                for (std::size_t i = 0; i < 4; ++i) {
+                    for (std::size_t j = i + 1; j < 4; ++j) {
+                        const glm::dvec3 edge = mesh.positions[mesh.cells[cell][j]] - mesh.positions[mesh.cells[cell][i]];
+                        longest = std::max(longest, glm::length(edge / units.length));
+                    }
+                }
+            }
+            return longest;
+        },
+        [](double a, double b) { return std::max(a, b); });
+}
+
+preint::PreintegrationTable buildTable(const Scene& scene, const preint::TransferFunction& function,
+                                       const SceneUnits& units) {
+    const preint::ExactIntegral exact(function);
+    const auto& options = scene.settings.table;
+    if (integralOf(scene.settings.mode) == preint::Integral::ScaleInvariant) {
+        return preint::buildScaleInvariantTable(exact, 0.0, 1.0, options);
+    }
+    return preint::buildStandardTable(exact, 0.0, 1.0, longestEdge(*scene.mesh, units), options);
+}
+
+class GlEngine final : public Engine {
+public:
+    GlEngine(const Scene& scene, const EngineOptions& options)
+        : scene_(scene),
+          units_(sceneUnits(*scene.mesh)),
+          function_(inSceneUnits(scene.transferFunction, units_, integralOf(scene.settings.mode))),
+          context_(makeGlContext(options.context)) {
+        Stopwatch watch;
+        layout_.gradient = modeLooksUp(mode()) && scene.settings.shading.needsGradient();
+        if (modeLooksUp(mode())) {
+            table_ = buildTable(scene, function_, units_);
+            findVisibleCells();
+            prepare_["table"] = watch.lap();
+            sorter_.emplace(*scene.mesh);
+            prepare_["adjacency"] = watch.lap();
+        } else {
+            cellShows_.assign(scene.mesh->cells.size(), 1);
+        }
+        const CurrentGlContext current(*context_);
+        makeState();
+        prepare_["context"] = watch.lap();
+    }
+
+    ~GlEngine() override {
+        try {
+            const CurrentGlContext current(*context_);
+            state_.reset();
+        } catch (const std::exception&) {
+            // The context is lost and with it all that is in it; a destructor has no one to tell.
+        }
+    }
+
+    Image render(const Camera& camera, FrameReport& report) override;
+
+    std::string name() const override { return "gl"; }
+    std::string renderer() const override { return state_->renderer; }
+    std::map<std::string, double> prepareMilliseconds() const override { return prepare_; }
+    const preint::PreintegrationTable* table() const override { return table_ ? &*table_ : nullptr; }
+
+private:
+    struct DrawnCell {
+        mesh::CellIndex cell;
+        PixelRect rect;
+    };
+
+    Mode mode() const { return scene_.settings.mode; }
+    void makeState();
+    void findVisibleCells();
+    const GlCellProgram& program(bool orthographic);
+    void setBlending() const;
+    std::vector<mesh::CellIndex> drawingOrder(const CameraFrame& frame, FrameReport& report) const;
+    std::vector<DrawnCell> selectCells(const CellProjector& projector, const std::vector<mesh::CellIndex>& order,
+                                       FrameReport& report) const;
+    void writeCells(const CellProjector& projector, const CameraFrame& frame, double margin, const DrawnCell* cells,
+                    std::size_t count, float* target) const;
+
+    Scene scene_;
+    SceneUnits units_;
+    preint::TransferFunction function_;  // scene units
+    std::optional<preint::PreintegrationTable> table_;
+    std::vector<std::uint8_t> cellShows_;  // whether the transfer function shows anything of a cell
+    std::optional<VisibilitySorter> sorter_;
+    GlCellLayout layout_;
+    std::unique_ptr<GlContext> context_;
+    std::optional<GlState> state_;
+    std::map<std::string, double> prepare_;
+};
+
+void GlEngine::makeState() {
+    state_.emplace();
+    state_->gl = loadGlFunctions(*context_);
+    const GlFunctions& gl = *state_->gl;
+    state_->renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
+    state_->target.emplace(gl);
+    state_->stream.emplace(gl, layout_);
+    if (table_) {
+        state_->table.emplace(gl, *table_);
+        state_->linearSampler = linearSamplerIsExact(gl);
+    }
+}
+
+void GlEngine::findVisibleCells() {
+    const auto support = extinctionSupport(scene_.transferFunction);
+    const mesh::ScalarMesh& mesh = *scene_.mesh;
+    cellShows_.resize(mesh.cells.size());
+    tbb::parallel_for(tbb::blocked_range<mesh::CellIndex>(0, static_cast<mesh::CellIndex>(mesh.cells.size()), 4096),
+                      [&](const auto& range) {
+                          for (mesh::CellIndex cell = range.begin(); cell != range.end(); ++cell) {
+                              double low = mesh.scalarAt(cell, 0), high = low;
+                              for (int k = 1; k < 4; ++k) {
+                                  low = std::min(low, mesh.scalarAt(cell, k));
+                                  high = std::max(high, mesh.scalarAt(cell, k));
+                              }
+                              cellShows_[cell] = rangeShows(scene_.transferFunction, support, low, high, integralOf(mode()));
+                          }
+                      });
+}
+
+const GlCellProgram& GlEngine::program(bool orthographic) {
+    auto& made = state_->programs[orthographic ? 1 : 0];
+    if (!made) {
+        made = std::make_unique<GlCellProgram>(*state_->gl, scene_.settings, function_, table(), orthographic,
+                                               state_->linearSampler);
+    }
+    return *made;
+}
+
+void GlEngine::setBlending() const {
+    const GlFunctions& gl = *state_->gl;
+    gl.Disable(GL_DEPTH_TEST);
+    gl.Disable(GL_CULL_FACE);
+    if (mode() == Mode::FirstHit) {
+        gl.Disable(GL_BLEND);  // what is in front overwrites
+        return;
+    }
+    gl.Enable(GL_BLEND);
+    gl.BlendEquation(mode() == Mode::Mip ? GL_MAX : GL_FUNC_ADD);
+    gl.BlendFunc(GL_ONE, mode() == Mode::Average ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
+}
+
+// Back to front, or as they come where order does not matter.
+std::vector<mesh::CellIndex> GlEngine::drawingOrder(const CameraFrame& frame, FrameReport& report) const {
+    if (!sorter_) {
+        report.orderMethod = "none";
+        std::vector<mesh::CellIndex> cells(scene_.mesh->cells.size());
+        std::iota(cells.begin(), cells.end(), mesh::CellIndex{0});
+        return cells;
+    }
+    VisibilityOrder order = sorter_->sort(frame);
+    report.orderMethod = order.method;
+    report.cellsSorted = order.frontToBack.size();
+    report.orderCycles = order.cyclicCells;
+    report.doubtfulPixels = std::move(order.doubtfulPixels);
+    std::reverse(order.frontToBack.begin(), order.frontToBack.end());
+    return std::move(order.frontToBack);
+}
+
+// The cells that cover pixels and show something, in the same order. What the order leaves out lies behind the eye.
+std::vector<GlEngine::DrawnCell> GlEngine::selectCells(const CellProjector& projector,
+                                                       const std::vector<mesh::CellIndex>& order,
+                                                       FrameReport& report) const {
+    std::vector<DrawnCell> selected(order.size());
+    std::vector<SkipReason> reasons(order.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 2048), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            selected[i].cell = order[i];
+            reasons[i] = cellShows_[order[i]] != 0 ? projector.bounds(order[i], selected[i].rect) : SkipReason::Invisible;
+        }
+    });
+    std::array<std::uint64_t, 4> skipped{};
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        if (reasons[i] == SkipReason::None) {
+            selected[count++] = selected[i];
+        } else {
+            ++skipped[static_cast<std::size_t>(reasons[i])];
+        }
+    }
+    selected.resize(count);
+    skipped[static_cast<std::size_t>(SkipReason::OutsideView)] += scene_.mesh->cells.size() - order.size();
+    for (const SkipReason reason : {SkipReason::OutsideView, SkipReason::NoPixelCentre, SkipReason::Invisible}) {
+        const std::uint64_t cells = skipped[static_cast<std::size_t>(reason)];
+        if (cells > 0) report.cellsSkipped[skipReasonName(reason)] = cells;
+    }
+    report.cellsDrawn = count;
+    return selected;
+}
+
+void GlEngine::writeCells(const CellProjector& projector, const CameraFrame& frame, double margin,
+                          const DrawnCell* cells, std::size_t count, float* target) const {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 256), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            const auto [cell, rect] = cells[i];
+            CellOutline outline;
+            const auto corners = projector.corners(cell);
+            if (corners) outline = cellOutline(*corners, margin);
+            if (!corners || !liesNear(outline, frame)) outline = rectangleOutline(rect);
+            writeCell(layout_, outline, projector.record(cell, rect),
+                      layout_.gradient ? projector.gradient(cell) : CellGradient{}, target + i * layout_.floats());
+        }
+    });
+}
+
+Image GlEngine::render(const Camera& camera, FrameReport& report) {
+    Stopwatch whole, watch;
+    auto& stages = report.stageMilliseconds;
+    const CameraFrame frame = cameraFrame(camera);
+    const std::vector<mesh::CellIndex> order = drawingOrder(frame, report);
+    stages["sort"] = watch.lap();
+
+    const CellProjector projector(*scene_.mesh, units_, frame);
+    const std::vector<DrawnCell> cells = selectCells(projector, order, report);
+    stages["setup"] = watch.lap();
+
+    const CurrentGlContext current(*context_);
+    const GlFunctions& gl = *state_->gl;
+    state_->target->begin(frame.width, frame.height, clearValue(mode()));
+    if (state_->table) state_->table->bind(0);
+    program(frame.orthographic).use(frame);
+    setBlending();
+    stages["draw"] = watch.lap();
+    const double margin = outlineMargin(gl, frame);
+    const GlCellStream::Times times = state_->stream->draw(
+        cells.size(), [&](std::size_t begin, std::size_t end, float* target) {
+            writeCells(projector, frame, margin, cells.data() + begin, end - begin, target);
+        });
+    watch.lap();
+    stages["setup"] += times.setup;
+    stages["upload"] = times.upload;
+    gl.Finish();
+    stages["draw"] += times.draw + watch.lap();
+
+    Image image = state_->target->read();
+    resolveOrderFree(image, mode(), scene_.transferFunction, units_);
+    stages["read back"] = watch.lap();
+    report.frameMilliseconds = whole.lap();
+    return image;
+}
+
+}  // namespace
+
+std::unique_ptr<Engine> makeGlEngine(const Scene& scene, const EngineOptions& options) {
+    return std::make_unique<GlEngine>(scene, options);
+}
+
+}  // namespace tetralux::projection

@@ -15,6 +15,7 @@ struct Field {
     Association association = Association::Point;
     int components = 1;          ///< values per point or cell; 3 for a vector
     std::vector<double> values;  ///< components × (points or cells), components fastest
+    bool bookkeeping = false;    ///< numbers of points, cells or blocks: shown only when asked for by name
 };
 
 }  // namespace tetralux::mesh

@@ -13,6 +13,12 @@ namespace tetralux::mesh {
 
 struct ReadOptions {
     std::optional<double> time;  ///< for series: the step nearest to it; the first step when not given
+    /// Pieces along each edge of a quadratic or Lagrange cell; 0 for as many as its order.
+    int subdivision = 0;
+    /// Points within this distance (mesh units) of another become one, whatever their values. Without it only points that agree
+    /// exactly in place and values do.
+    std::optional<double> mergeTolerance;
+    bool smoothCells = false;  ///< cell fields become point fields: the mean of the cells around each point
 };
 
 struct ReadResult {

@@ -41,10 +41,19 @@ std::size_t findField(const std::vector<Field>& fields, const std::string& name)
     return fields.size();
 }
 
+/// The first point field, else the first cell field; numbers of points and cells only if there is nothing else.
 std::size_t firstField(const std::vector<Field>& fields) {
-    const auto onPoints = [](const Field& field) { return field.association == Association::Point; };
-    const auto found = std::find_if(fields.begin(), fields.end(), onPoints);
-    return found == fields.end() ? 0 : static_cast<std::size_t>(found - fields.begin());
+    for (const bool bookkeeping : {false, true}) {
+        for (const Association association : {Association::Point, Association::Cell}) {
+            const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) {
+                return field.association == association && field.bookkeeping == bookkeeping;
+            });
+            if (found != fields.end()) {
+                return static_cast<std::size_t>(found - fields.begin());
+            }
+        }
+    }
+    return 0;
 }
 
 /// "0", "1", … or "x", "y", "z" as a component number; nothing that is no such name.

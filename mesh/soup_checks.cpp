@@ -102,9 +102,9 @@ CellVerdict classifyCell(const CellSoup& soup, std::size_t cell) {
     return checkPoints(soup, points);
 }
 
-void reportTypes(const CellSoup& soup, MeshReport& report) {
+void reportTypes(const std::vector<std::uint8_t>& types, MeshReport& report) {
     std::array<std::uint64_t, 256> counts{};
-    for (const std::uint8_t type : soup.types) {
+    for (const std::uint8_t type : types) {
         ++counts[type];
     }
     for (std::size_t type = 0; type < counts.size(); ++type) {
@@ -177,14 +177,14 @@ std::vector<CellVerdict> classifyCells(const CellSoup& soup) {
     return verdicts;
 }
 
-void reportCells(const CellSoup& soup, const std::vector<CellVerdict>& verdicts, MeshReport& report) {
-    report.cellsRead += soup.types.size();
-    reportTypes(soup, report);
+void reportCells(const std::vector<std::uint8_t>& types, const std::vector<CellVerdict>& verdicts, MeshReport& report) {
+    report.cellsRead += types.size();
+    reportTypes(types, report);
     for (std::size_t cell = 0; cell < verdicts.size(); ++cell) {
         if (verdicts[cell] == CellVerdict::Good) {
             continue;
         }
-        const CellTypeInfo info = cellTypeInfo(soup.types[cell]);
+        const CellTypeInfo info = cellTypeInfo(types[cell]);
         if (verdicts[cell] == CellVerdict::LowDimension) {
             ++report.skipped[fmt::format("not solid ({})", info.name)];
             continue;

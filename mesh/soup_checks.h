@@ -33,8 +33,8 @@ void checkStructure(const CellSoup& soup);
 /// parallel. Needs `checkStructure`.
 std::vector<CellVerdict> classifyCells(const CellSoup& soup);
 
-/// Counts cells, types, verdicts and points that no cell names into `report`.
-void reportCells(const CellSoup& soup, const std::vector<CellVerdict>& verdicts, MeshReport& report);
+/// Counts cells, their types and their verdicts into `report`.
+void reportCells(const std::vector<std::uint8_t>& types, const std::vector<CellVerdict>& verdicts, MeshReport& report);
 
 /// Counts points below `pointCount` (the source's own, not those that subdivision added) that no cell names.
 void reportUnusedPoints(const CellSoup& soup, std::size_t pointCount, MeshReport& report);

@@ -69,7 +69,8 @@ bool writeSoup(int file, const CellSoup& soup) {
     good = good && writeAll(file, &fields, sizeof fields);
     for (const Field& field : soup.fields) {
         good = good && writeArray(file, field.name) && writeAll(file, &field.association, sizeof field.association) &&
-               writeAll(file, &field.components, sizeof field.components) && writeArray(file, field.values);
+               writeAll(file, &field.components, sizeof field.components) &&
+               writeAll(file, &field.bookkeeping, sizeof field.bookkeeping) && writeArray(file, field.values);
     }
     return good;
 }
@@ -82,7 +83,8 @@ bool readSoup(int file, CellSoup& soup) {
     for (std::uint64_t i = 0; good && i < fields; ++i) {
         Field field;
         good = readArray(file, field.name) && readAll(file, &field.association, sizeof field.association) &&
-               readAll(file, &field.components, sizeof field.components) && readArray(file, field.values);
+               readAll(file, &field.components, sizeof field.components) &&
+               readAll(file, &field.bookkeeping, sizeof field.bookkeeping) && readArray(file, field.values);
         soup.fields.push_back(std::move(field));
     }
     return good;

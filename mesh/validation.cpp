@@ -9,7 +9,10 @@
 
 #include <mesh/cell_decomposition.h>
 #include <mesh/duplicate_cells.h>
+#include <mesh/merge_points.h>
+#include <mesh/smooth_cells.h>
 #include <mesh/soup_checks.h>
+#include <mesh/subdivide_cells.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -115,21 +118,56 @@ void dropUnusedPoints(TetMesh& mesh) {
                                                      : "mend the cells or export the mesh again"));
 }
 
+/// What is to be said of a source cell: the worst that was found of its pieces, but flat only if all of them are.
+CellVerdict joined(CellVerdict before, CellVerdict piece) {
+    const auto rank = [](CellVerdict v) { return isKept(v) ? static_cast<int>(v) : -1; };
+    return rank(piece) > rank(before) ? piece : before;
+}
+
+/// Decomposition of the pieces of curved cells, with source cells as parents and verdicts of source cells.
+Decomposition decomposePieces(CellSoup& soup, const std::vector<std::uint32_t>& sources, std::vector<CellVerdict>& verdicts) {
+    std::vector<CellVerdict> pieces(soup.types.size(), CellVerdict::Good);
+    Decomposition decomposition = decomposeCells(soup, pieces);
+    if (decomposition.parents.empty()) {
+        decomposition.parents = sources;
+    } else {
+        for (std::uint32_t& parent : decomposition.parents) {
+            parent = sources[parent];
+        }
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const bool first = i == 0 || sources[i] != sources[i - 1];
+        verdicts[sources[i]] = first ? pieces[i] : joined(verdicts[sources[i]], pieces[i]);
+    }
+    return decomposition;
+}
+
+/// Everything between the checks of single cells and those of tetrahedra.
+Decomposition decompose(CellSoup& soup, const ReadOptions& options, MeshReport& report) {
+    std::vector<CellVerdict> verdicts = classifyCells(soup);
+    reportUnusedPoints(soup, soup.points.size(), report);
+    mergeCoincidentPoints(soup, options.mergeTolerance, report);
+    if (options.smoothCells) {
+        smoothCellFields(soup, verdicts);
+    }
+    const std::vector<std::uint8_t> types = soup.types;
+    const auto sources = subdivideCurvedCells(soup, verdicts, options.subdivision);
+    Decomposition decomposition = sources ? decomposePieces(soup, *sources, verdicts) : decomposeCells(soup, verdicts);
+    reportCells(types, verdicts, report);
+    return decomposition;
+}
+
 }  // namespace
 
-ReadResult tetMeshFromSoup(CellSoup soup, const ReadOptions&) {
+ReadResult tetMeshFromSoup(CellSoup soup, const ReadOptions& options) {
     checkStructure(soup);
     ReadResult result;
-    std::vector<CellVerdict> verdicts = classifyCells(soup);
-    reportUnusedPoints(soup, soup.points.size(), result.report);
-    Decomposition decomposition = decomposeCells(soup, verdicts);
-    reportCells(soup, verdicts, result.report);
+    Decomposition decomposition = decompose(soup, options, result.report);
     soup.types = {};
     soup.offsets = {};
     soup.connectivity = {};
     soup.faceOffsets = {};
     soup.faceStream = {};
-    verdicts = {};
     dropDuplicates(decomposition, soup.points.size(), result.report);
     if (decomposition.cells.empty()) {
         refuseEmpty(result.report);

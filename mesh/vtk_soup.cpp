@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <mesh/vtk_soup.h>
 
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -111,12 +112,13 @@ void takePolyhedra(vtkUnstructuredGrid* grid, CellSoup& soup) {
 
 bool isBookkeeping(vtkDataSetAttributes* attributes, int index, const std::string& name) {
     const int role = attributes->IsArrayAnAttribute(index);
-    return role == vtkDataSetAttributes::GLOBALIDS || role == vtkDataSetAttributes::PEDIGREEIDS || name == "GlobalNodeId" ||
-           name == "GlobalElementId" || name == "ObjectId" || name == "vtkOriginalPointIds" || name == "vtkOriginalCellIds";
+    static const std::set<std::string> known{
+        "GlobalNodeId",        "GlobalElementId",    "PedigreeNodeId",    "PedigreeElementId", "ObjectId",
+        "vtkOriginalPointIds", "vtkOriginalCellIds", "GLOBAL_IDS_POINTS", "GLOBAL_IDS_CELLS",  "vtkCompositeIndex"};
+    return role == vtkDataSetAttributes::GLOBALIDS || role == vtkDataSetAttributes::PEDIGREEIDS || known.contains(name);
 }
 
 void takeFields(vtkDataSetAttributes* attributes, Association association, std::size_t places, CellSoup& soup) {
-    std::vector<Field> last;  // numbers of points and cells come last, so that none is shown unasked
     for (int i = 0; i < attributes->GetNumberOfArrays(); ++i) {
         vtkDataArray* array = attributes->GetArray(i);
         if (array == nullptr || static_cast<std::size_t>(array->GetNumberOfTuples()) != places) {
@@ -135,9 +137,7 @@ void takeFields(vtkDataSetAttributes* attributes, Association association, std::
                 field.values[k] = static_cast<double>(values[k]);
             }
         });
-        (isBookkeeping(attributes, i, field.name) ? last : soup.fields).push_back(std::move(field));
-    }
-    for (Field& field : last) {
+        field.bookkeeping = isBookkeeping(attributes, i, field.name);
         soup.fields.push_back(std::move(field));
     }
 }

@@ -27,6 +27,7 @@ struct CellSoup {
 
     std::vector<Field> fields;
     std::vector<std::uint8_t> hidden;  ///< 1 for a ghost or blanked cell; empty when there is none
+    std::vector<double> times;         ///< of all steps, if the source is a series; the cells are those of one
 
     static constexpr std::uint32_t invalidPoint = 0xffffffffu;
 };

@@ -20,5 +20,11 @@ struct MeshFormat {
 
 extern const MeshFormat vtkXmlFormat;
 extern const MeshFormat legacyVtkFormat;
+extern const MeshFormat pvdFormat;
+extern const MeshFormat exodusFormat;
+extern const MeshFormat cgnsFormat;
+extern const MeshFormat ensightFormat;
+extern const MeshFormat openFoamFormat;
+extern const MeshFormat imageFormat;
 
 }  // namespace tetralux::mesh

@@ -18,6 +18,12 @@ namespace {
 const std::array formats{
     &vtkXmlFormat,
     &legacyVtkFormat,
+    &pvdFormat,
+    &exodusFormat,
+    &cgnsFormat,
+    &ensightFormat,
+    &openFoamFormat,
+    &imageFormat,
 };
 
 std::string knownSources() {

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <mesh/mesh_report.h>
 #include <mesh/tet_mesh.h>
@@ -24,6 +25,7 @@ struct ReadOptions {
 struct ReadResult {
     TetMesh mesh;
     MeshReport report;
+    std::vector<double> times;  ///< of all steps, if the source is a series; the mesh is that of one
 };
 
 /// Reads `source`: a file of any registered format or a generated field such as "bucky:32".

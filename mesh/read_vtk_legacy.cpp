@@ -24,7 +24,7 @@ CellSoup readLegacyVtk(const std::string& source, const ReadOptions&) {
         reader->ReadAllColorScalarsOn();
         reader->ReadAllTCoordsOn();
         reader->ReadAllFieldsOn();
-        return soupFromReader(*reader);
+        return soupFromReader(*reader, std::nullopt);
     });
 }
 

@@ -14,12 +14,12 @@ bool acceptsVtkXml(const std::string& source) {
     return hasExtension(source, {".vtu", ".pvtu", ".vti", ".pvti", ".vtr", ".pvtr", ".vts", ".pvts", ".vtm", ".vtp", ".pvtp"});
 }
 
-CellSoup readVtkXml(const std::string& source, const ReadOptions&) {
+CellSoup readVtkXml(const std::string& source, const ReadOptions& options) {
     checkReadable(source);
     return readIsolated(source, [&] {
         vtkNew<vtkXMLGenericDataObjectReader> reader;
         reader->SetFileName(source.c_str());
-        return soupFromReader(*reader);
+        return soupFromReader(*reader, options.time);
     });
 }
 

@@ -64,7 +64,8 @@ bool readArray(int file, Array& array) {
 bool writeSoup(int file, const CellSoup& soup) {
     bool good = writeArray(file, soup.points) && writeArray(file, soup.types) && writeArray(file, soup.offsets) &&
                 writeArray(file, soup.connectivity) && writeArray(file, soup.faceOffsets) &&
-                writeArray(file, soup.faceStream) && writeArray(file, soup.hidden);
+                writeArray(file, soup.faceStream) && writeArray(file, soup.hidden) &&
+                writeArray(file, soup.times);
     const std::uint64_t fields = soup.fields.size();
     good = good && writeAll(file, &fields, sizeof fields);
     for (const Field& field : soup.fields) {
@@ -79,7 +80,8 @@ bool readSoup(int file, CellSoup& soup) {
     std::uint64_t fields = 0;
     bool good = readArray(file, soup.points) && readArray(file, soup.types) && readArray(file, soup.offsets) &&
                 readArray(file, soup.connectivity) && readArray(file, soup.faceOffsets) &&
-                readArray(file, soup.faceStream) && readArray(file, soup.hidden) && readAll(file, &fields, sizeof fields);
+                readArray(file, soup.faceStream) && readArray(file, soup.hidden) && readArray(file, soup.times) &&
+                readAll(file, &fields, sizeof fields);
     for (std::uint64_t i = 0; good && i < fields; ++i) {
         Field field;
         good = readArray(file, field.name) && readAll(file, &field.association, sizeof field.association) &&

@@ -162,6 +162,7 @@ Decomposition decompose(CellSoup& soup, const ReadOptions& options, MeshReport& 
 ReadResult tetMeshFromSoup(CellSoup soup, const ReadOptions& options) {
     checkStructure(soup);
     ReadResult result;
+    result.times = std::move(soup.times);
     Decomposition decomposition = decompose(soup, options, result.report);
     soup.types = {};
     soup.offsets = {};

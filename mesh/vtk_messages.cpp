@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
 #include <vtkAlgorithm.h>
+#include <vtkInformation.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 
 #include <mesh/vtk_soup.h>
 
@@ -69,11 +73,31 @@ void throwOnVtkError() {
     }
 }
 
-CellSoup soupFromReader(vtkAlgorithm& reader) {
+double nearestTime(const std::vector<double>& times, std::optional<double> wanted) {
+    return wanted ? *std::min_element(times.begin(), times.end(),
+                                      [&](double a, double b) { return std::abs(a - *wanted) < std::abs(b - *wanted); })
+                  : times.front();
+}
+
+CellSoup soupFromReader(vtkAlgorithm& reader, std::optional<double> time) {
     captureVtkMessages();
-    reader.Update();
+    reader.UpdateInformation();
     throwOnVtkError();
-    return soupFromVtk(reader.GetOutputDataObject(0));
+    std::vector<double> times;
+    vtkInformation* information = reader.GetOutputInformation(0);
+    if (information != nullptr && information->Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS())) {
+        const double* steps = information->Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+        times.assign(steps, steps + information->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()));
+    }
+    if (times.empty()) {
+        reader.Update();
+    } else {
+        reader.UpdateTimeStep(nearestTime(times, time));
+    }
+    throwOnVtkError();
+    CellSoup soup = soupFromVtk(reader.GetOutputDataObject(0));
+    soup.times = std::move(times);
+    return soup;
 }
 
 }  // namespace tetralux::mesh

@@ -3,7 +3,9 @@
 /// What the readers built on VTK share. VTK's own headers stay in .cpp files.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <mesh/cell_soup.h>
 
@@ -17,10 +19,13 @@ namespace tetralux::mesh {
 /// \throws std::runtime_error if the object is of a kind without cells.
 CellSoup soupFromVtk(vtkDataObject* data);
 
-/// Updates `reader` and converts its first output. VTK's messages are collected, not printed, from the first
+/// Updates `reader`, at the time step nearest to `time` if it has several, and converts its first output. VTK's messages are collected, not printed, from the first
 /// call on, so call it within `readIsolated` only.
 /// \throws std::runtime_error with the reader's first error message and a remedy, without the name of the file.
-CellSoup soupFromReader(vtkAlgorithm& reader);
+CellSoup soupFromReader(vtkAlgorithm& reader, std::optional<double> time);
+
+/// The one of `times` nearest to `wanted`, the first if nothing is wanted. `times` must not be empty.
+double nearestTime(const std::vector<double>& times, std::optional<double> wanted);
 
 /// From now on VTK prints nothing and `throwOnVtkError` knows its messages.
 void captureVtkMessages();

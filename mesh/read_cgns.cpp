@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <vtkCGNSReader.h>
+#include <vtkNew.h>
+
+#include <mesh/file_checks.h>
+#include <mesh/isolated_read.h>
+#include <mesh/mesh_format.h>
+#include <mesh/vtk_soup.h>
+
+namespace tetralux::mesh {
+namespace {
+
+bool acceptsCgns(const std::string& source) { return hasExtension(source, {".cgns"}); }
+
+CellSoup readCgns(const std::string& source, const ReadOptions& options) {
+    checkReadable(source);
+    return readIsolated(source, [&] {
+        captureVtkMessages();
+        vtkNew<vtkCGNSReader> reader;
+        reader->SetFileName(source.c_str());
+        reader->DoublePrecisionMeshOn();
+        reader->UpdateInformation();
+        throwOnVtkError();
+        reader->EnableAllBases();
+        reader->EnableAllFamilies();
+        reader->EnableAllPointArrays();
+        reader->EnableAllCellArrays();
+        return soupFromReader(*reader, options.time);
+    });
+}
+
+}  // namespace
+
+const MeshFormat cgnsFormat{"CGNS", ".cgns", acceptsCgns, readCgns};
+
+}  // namespace tetralux::mesh

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLGenericDataObjectReader.h>
+#include <vtkXMLUtilities.h>
+
+#include <mesh/file_checks.h>
+#include <mesh/isolated_read.h>
+#include <mesh/mesh_format.h>
+#include <mesh/vtk_soup.h>
+
+namespace tetralux::mesh {
+namespace {
+
+bool acceptsPvd(const std::string& source) { return hasExtension(source, {".pvd"}); }
+
+struct Part {
+    double time;
+    std::string file;
+};
+
+/// The entries of a ParaView collection: every file with its time.
+std::vector<Part> readCollection(const std::string& source) {
+    captureVtkMessages();
+    const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(source.c_str()));
+    vtkXMLDataElement* collection = root != nullptr ? root->FindNestedElementWithName("Collection") : nullptr;
+    if (collection == nullptr) {
+        throw std::runtime_error("is no ParaView collection (<VTKFile type=\"Collection\">); write the file again");
+    }
+    std::vector<Part> parts;
+    for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
+        vtkXMLDataElement* entry = collection->GetNestedElement(i);
+        const char* file = entry->GetAttribute("file");
+        double time = 0.0;
+        entry->GetScalarAttribute("timestep", time);
+        if (file != nullptr && std::isfinite(time)) {
+            parts.push_back({time, file});
+        }
+    }
+    if (parts.empty()) {
+        throw std::runtime_error("names no file; add a DataSet element for each");
+    }
+    return parts;
+}
+
+CellSoup readCollectionAt(const std::string& source, std::optional<double> time) {
+    const std::vector<Part> parts = readCollection(source);
+    std::set<double> times;
+    for (const Part& part : parts) {
+        times.insert(part.time);
+    }
+    const std::vector<double> steps(times.begin(), times.end());
+    const double chosen = nearestTime(steps, time);
+    CellSoup soup;
+    for (const Part& part : parts) {
+        if (part.time == chosen) {
+            const std::filesystem::path file = std::filesystem::path(source).parent_path() / part.file;
+            std::error_code failed;
+            if (!std::filesystem::is_regular_file(file, failed)) {
+                throw std::runtime_error(fmt::format("names {}, which is not there; put it beside the collection", part.file));
+            }
+            vtkNew<vtkXMLGenericDataObjectReader> reader;
+            reader->SetFileName(file.c_str());
+            appendSoup(soup, soupFromReader(*reader, std::nullopt));
+        }
+    }
+    soup.times = steps;
+    return soup;
+}
+
+CellSoup readPvd(const std::string& source, const ReadOptions& options) {
+    checkReadable(source);
+    return readIsolated(source, [&] { return readCollectionAt(source, options.time); });
+}
+
+}  // namespace
+
+const MeshFormat pvdFormat{"ParaView series", ".pvd", acceptsPvd, readPvd};
+
+}  // namespace tetralux::mesh

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include <mesh/tet_mesh.h>
+
+#include "geometry.h"
+
+namespace tetralux::mesher {
+
+/// A surface or points, or cells that are already (or have been made) tetrahedra.
+using Input = std::variant<PolygonSoup, mesh::TetMesh>;
+
+/// Reads `source` by the ending of its name. \throws std::runtime_error with one line that begins with `source`.
+Input readInput(const std::string& source);
+
+}  // namespace tetralux::mesher

@@ -26,5 +26,9 @@ extern const MeshFormat cgnsFormat;
 extern const MeshFormat ensightFormat;
 extern const MeshFormat openFoamFormat;
 extern const MeshFormat imageFormat;
+extern const MeshFormat rawFormat;
+extern const MeshFormat gmshFormat;
+extern const MeshFormat meditFormat;
+extern const MeshFormat tetgenFormat;
 
 }  // namespace tetralux::mesh

@@ -24,6 +24,10 @@ const std::array formats{
     &ensightFormat,
     &openFoamFormat,
     &imageFormat,
+    &rawFormat,
+    &gmshFormat,
+    &meditFormat,
+    &tetgenFormat,
 };
 
 std::string knownSources() {

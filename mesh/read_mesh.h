@@ -39,9 +39,10 @@ struct ScalarSelection {
 };
 
 /// Takes one scalar of `mesh`: `name` alone (vectors by magnitude), "name:0" or "name:x" (a component), or ""
-/// for the first point field, else the first cell field. Consumes the mesh so that nothing is copied.
+/// for the first point field, else the first cell field (numbers of points or cells do not count), else the coordinate along which the
+/// mesh is longest. "x", "y" and "z" are the coordinates unless a field is called so. Consumes the mesh so that nothing is copied.
 /// Cells with a non-finite scalar are left out and counted in `report`.
-/// \throws std::runtime_error listing the fields there are when the name is wrong or no field is left.
+/// \throws std::runtime_error listing the fields there are when the name is wrong or no cell is left.
 ScalarSelection selectScalar(TetMesh&& mesh, const std::string& name, MeshReport& report);
 
 }  // namespace tetralux::mesh

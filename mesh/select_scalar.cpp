@@ -41,19 +41,17 @@ std::size_t findField(const std::vector<Field>& fields, const std::string& name)
     return fields.size();
 }
 
-/// The first point field, else the first cell field; numbers of points and cells only if there is nothing else.
+/// The first point field, else the first cell field, that is not mere numbers of points or cells; fields.size() if there is none.
 std::size_t firstField(const std::vector<Field>& fields) {
-    for (const bool bookkeeping : {false, true}) {
-        for (const Association association : {Association::Point, Association::Cell}) {
-            const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) {
-                return field.association == association && field.bookkeeping == bookkeeping;
-            });
-            if (found != fields.end()) {
-                return static_cast<std::size_t>(found - fields.begin());
-            }
+    for (const Association association : {Association::Point, Association::Cell}) {
+        const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) {
+            return field.association == association && !field.bookkeeping;
+        });
+        if (found != fields.end()) {
+            return static_cast<std::size_t>(found - fields.begin());
         }
     }
-    return 0;
+    return fields.size();
 }
 
 /// "0", "1", … or "x", "y", "z" as a component number; nothing that is no such name.
@@ -71,9 +69,6 @@ std::optional<int> parseComponent(const std::string& text) {
 
 /// The whole of `name` is tried first, so that a field whose name has a colon can be chosen.
 Choice chooseField(const TetMesh& mesh, const std::string& name) {
-    if (mesh.fields.empty()) {
-        throw std::runtime_error("the mesh has no field to show; give a mesh with values on its points or cells");
-    }
     if (name.empty()) {
         return {firstField(mesh.fields), magnitude};
     }
@@ -114,6 +109,24 @@ double norm(const double* values, int count) {
     }
     return largest * std::sqrt(sum);
 }
+
+/// Adds the coordinate called `name` ("x", "y" or "z"), or that along which the mesh is longest if `name` is empty, as a point
+/// field, so that a mesh without values can be shown at all.
+void addCoordinateField(TetMesh& mesh, const std::string& name) {
+    const BoundingBox box = usedBounds(mesh.positions, mesh.cells);
+    const glm::dvec3 size = box.high - box.low;
+    int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    axis = name.empty() ? axis : name[0] - 'x';
+    Field field;
+    field.name = std::string(1, static_cast<char>('x' + axis));
+    field.values.reserve(mesh.positions.size());
+    for (const glm::dvec3& position : mesh.positions) {
+        field.values.push_back(position[axis]);
+    }
+    mesh.fields.push_back(std::move(field));
+}
+
+bool isCoordinateName(const std::string& name) { return name == "x" || name == "y" || name == "z"; }
 
 /// One value per point or cell, taken out of `field` in place.
 std::vector<double> takeScalars(Field& field, int component) {
@@ -197,6 +210,10 @@ void findScalarRange(ScalarMesh& mesh) {
 }  // namespace
 
 ScalarSelection selectScalar(TetMesh&& mesh, const std::string& name, MeshReport& report) {
+    const std::size_t found = name.empty() ? firstField(mesh.fields) : findField(mesh.fields, name);
+    if (found == mesh.fields.size() && (name.empty() || isCoordinateName(name))) {
+        addCoordinateField(mesh, name);
+    }
     const Choice choice = chooseField(mesh, name);
     Field& field = mesh.fields[choice.field];
     ScalarSelection selection;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <mesh/vtk_soup.h>
 
+#include <algorithm>
+#include <array>
 #include <set>
 #include <stdexcept>
 
@@ -23,6 +25,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <mesh/cell_types.h>
+#include <mesh/grid_soup.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -171,36 +174,12 @@ void hideCells(vtkDataSet* data, CellSoup& soup) {
     }
 }
 
-/// Cells of a grid of points, x fastest. `type` is voxel or hexahedron, which number their points differently.
-void makeGridCells(const int dimensions[3], std::uint8_t type, CellSoup& soup) {
-    const std::size_t nx = static_cast<std::size_t>(dimensions[0]);
-    const std::size_t ny = static_cast<std::size_t>(dimensions[1]);
-    const std::size_t nz = static_cast<std::size_t>(dimensions[2]);
-    if (nx < 2 || ny < 2 || nz < 2) {
-        throw std::runtime_error(fmt::format("a grid of {} x {} x {} points has no volume; give one of at least 2 x 2 x 2", nx, ny, nz));
+void takeGridCells(const int dimensions[3], std::uint8_t type, CellSoup& soup) {
+    std::array<std::size_t, 3> points{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        points[axis] = static_cast<std::size_t>(std::max(0, dimensions[axis]));
     }
-    const std::size_t cells = (nx - 1) * (ny - 1) * (nz - 1);
-    soup.types.assign(cells, type);
-    soup.connectivity.reserve(8 * cells);
-    soup.offsets.resize(cells + 1);
-    for (std::size_t i = 0; i <= cells; ++i) {
-        soup.offsets[i] = 8 * i;
-    }
-    const bool swapped = type == cell_type::hexahedron;  // a hexahedron runs around its quadrilaterals
-    for (std::size_t k = 0; k + 1 < nz; ++k) {
-        for (std::size_t j = 0; j + 1 < ny; ++j) {
-            for (std::size_t i = 0; i + 1 < nx; ++i) {
-                for (const std::size_t above : {std::size_t{0}, nx * ny}) {
-                    const std::size_t low = i + nx * (j + ny * k) + above;
-                    const std::size_t third = swapped ? low + nx + 1 : low + nx;
-                    const std::size_t fourth = swapped ? low + nx : low + nx + 1;
-                    for (const std::size_t p : {low, low + 1, third, fourth}) {
-                        soup.connectivity.push_back(static_cast<std::uint32_t>(p));
-                    }
-                }
-            }
-        }
-    }
+    addGridCells(soup, points, type);
 }
 
 void takeGridPoints(vtkDataSet* grid, CellSoup& soup) {
@@ -225,15 +204,15 @@ CellSoup soupFromDataSet(vtkDataSet* data) {
         takePolyhedra(grid, soup);
     } else if (auto* image = vtkImageData::SafeDownCast(data)) {
         image->GetDimensions(dimensions);
-        makeGridCells(dimensions, cell_type::voxel, soup);
+        takeGridCells(dimensions, cell_type::voxel, soup);
         takeGridPoints(data, soup);
     } else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(data)) {
         rectilinear->GetDimensions(dimensions);
-        makeGridCells(dimensions, cell_type::voxel, soup);
+        takeGridCells(dimensions, cell_type::voxel, soup);
         takeGridPoints(data, soup);
     } else if (auto* curvilinear = vtkStructuredGrid::SafeDownCast(data)) {
         curvilinear->GetDimensions(dimensions);
-        makeGridCells(dimensions, cell_type::hexahedron, soup);
+        takeGridCells(dimensions, cell_type::hexahedron, soup);
         takePoints(curvilinear->GetPoints(), soup);
     } else if (auto* surface = vtkPolyData::SafeDownCast(data)) {
         takeSurface(surface, soup);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <apps/commands.h>
+#include <apps/read_options.h>
 #include <apps/report_text.h>
 #include <mesh/read_mesh.h>
 
@@ -22,7 +22,7 @@ namespace {
 
 struct InfoOptions {
     std::string source;
-    std::optional<double> time;
+    mesh::ReadOptions read;
     bool json = false;
 };
 
@@ -108,7 +108,7 @@ void printInfo(const InfoOptions& options, const mesh::ReadResult& found) {
 }
 
 int info(const InfoOptions& options) {
-    const mesh::ReadResult found = mesh::readMesh(options.source, {.time = options.time});
+    const mesh::ReadResult found = mesh::readMesh(options.source, options.read);
     if (options.json)
         fmt::print("{}", jsonText(infoJson(options, found)));
     else
@@ -122,7 +122,7 @@ void addInfoCommand(CLI::App& program, Command& chosen) {
     const auto options = std::make_shared<InfoOptions>();
     CLI::App* command = program.add_subcommand("info", "cells, fields, ranges and faults of a mesh");
     command->add_option("MESH", options->source, "mesh file or generated field")->required();
-    command->add_option("--time", options->time, "time step of a series, the nearest one is taken");
+    addReadOptions(*command, options->read);
     command->add_flag("--json", options->json, "for machines");
     command->callback([options, &chosen] { chosen = [options] { return info(*options); }; });
 }

@@ -10,42 +10,14 @@
 #include <CLI/CLI.hpp>
 #include <glm/geometric.hpp>
 
+#include <apps/add_option.h>
 #include <apps/option_values.h>
+#include <apps/read_options.h>
 #include <preint/transfer_function.h>
 
 namespace tetralux::apps {
 
 namespace {
-
-/// An option whose text `parse(name, text)` turns into `target`.
-template <class Target, class Parse>
-CLI::Option* addParsed(CLI::App& command, const std::string& name, Target& target, Parse parse, const std::string& help,
-                       const std::string& form) {
-    return command
-        .add_option_function<std::string>(
-            name, [&target, parse, name](const std::string& text) { target = parse(name, text); }, help)
-        ->type_name(form);
-}
-
-/// A finite number for which `good` holds; `wanted` says in words which ones those are.
-template <class Number, class Target>
-void addNumber(CLI::App& command, const std::string& name, Target& target, bool (*good)(double),
-               const std::string& wanted, const std::string& help) {
-    const auto store = [&target, good, wanted, name](const Number& value) {
-        const auto number = static_cast<double>(value);
-        if (!std::isfinite(number) || !good(number))
-            throw std::runtime_error(fmt::format("{}: {} will not do; give {}", name, value, wanted));
-        target = value;
-    };
-    command.add_option_function<Number>(name, store, help);
-}
-
-bool positive(double value) {
-    return value > 0.0;
-}
-bool notNegative(double value) {
-    return value >= 0.0;
-}
 
 shading::DirectionalLight parseLight(const std::string& text) {
     const glm::dvec3 direction = parseVector("--light", text);
@@ -55,10 +27,13 @@ shading::DirectionalLight parseLight(const std::string& text) {
     return {glm::normalize(direction / largest)};
 }
 
-void addPictureOptions(CLI::App& command, RenderOptions& options) {
+void addMeshOptions(CLI::App& command, RenderOptions& options) {
     command.add_option("--scalar", options.scalar,
                        "field to show: NAME (vectors by magnitude) or NAME:x (a component)");
-    command.add_option("--time", options.time, "time step of a series, the nearest one is taken");
+    addReadOptions(command, options.read);
+}
+
+void addPictureOptions(CLI::App& command, RenderOptions& options) {
     command.add_option(
         "--tf", options.transferFunction,
         fmt::format("transfer function: JSON file or one of {}", fmt::join(preint::presetNames(), ", ")));
@@ -126,6 +101,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
         ->required();
     using Section = void (*)(CLI::App&, RenderOptions&);
     const std::pair<const char*, Section> sections[] = {{"Output", addOutputOptions},
+                                                        {"Mesh", addMeshOptions},
                                                         {"Picture", addPictureOptions},
                                                         {"Camera", addCameraOptions},
                                                         {"Machine", addMachineOptions}};

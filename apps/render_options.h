@@ -9,6 +9,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <mesh/read_mesh.h>
 #include <projection/engine.h>
 #include <projection/scene.h>
 
@@ -19,9 +20,9 @@ class App;
 namespace tetralux::apps {
 
 struct RenderOptions {
-    std::string source;                        ///< mesh file or generated field
-    std::string scalar;                        ///< empty: the first field
-    std::optional<double> time;                ///< of a series
+    std::string source;  ///< mesh file or generated field
+    std::string scalar;  ///< empty: the first field
+    mesh::ReadOptions read;
     std::string transferFunction = "inferno";  ///< file or preset
     projection::RenderSettings settings;
     projection::EngineOptions engine;

@@ -32,7 +32,7 @@ preint::TransferFunction loadTransferFunction(const std::string& name) {
     const std::vector<std::string> presets = preint::presetNames();
     if (std::find(presets.begin(), presets.end(), name) != presets.end()) return preint::preset(name);
     std::error_code ignored;
-    if (!std::filesystem::exists(name, ignored))
+    if (!std::filesystem::exists(name, ignored) || std::filesystem::is_directory(name, ignored))
         throw std::runtime_error(fmt::format("--tf {}: no such file or preset; give a JSON file or one of {}", name,
                                              fmt::join(presets, ", ")));
     return preint::readTransferFunction(name);
@@ -70,7 +70,7 @@ SceneRenderer::SceneRenderer(const RenderOptions& options) : background_(options
 void SceneRenderer::readScene(const RenderOptions& options) {
     const preint::TransferFunction transferFunction = loadTransferFunction(options.transferFunction);
     const Stopwatch watch;
-    mesh::ReadResult source = mesh::readMesh(options.source, {.time = options.time});
+    mesh::ReadResult source = mesh::readMesh(options.source, options.read);
     record_.mesh = std::move(source.report);
     try {
         mesh::ScalarSelection selection = mesh::selectScalar(std::move(source.mesh), options.scalar, record_.mesh);

@@ -28,7 +28,8 @@ inline std::string contentOf(const std::filesystem::path& path) {
 
 /// Runs `arguments` (the first is the program's path) in `folder`, standard input empty.
 inline Outcome runProgram(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
-    const std::filesystem::path said = std::filesystem::temp_directory_path() / ("tetralux-said-" + std::to_string(::getpid()));
+    const std::filesystem::path said =
+        std::filesystem::temp_directory_path() / ("tetralux-said-" + std::to_string(::getpid()));
     const std::string out = said.string() + ".out", err = said.string() + ".err";
     std::vector<char*> argv;
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// Options whose value is checked when it is read, so that the message can name the option and what to give.
+#pragma once
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+namespace tetralux::apps {
+
+/// An option whose text `parse(name, text)` turns into `target`.
+template <class Target, class Parse>
+CLI::Option* addParsed(CLI::App& command, const std::string& name, Target& target, Parse parse, const std::string& help,
+                       const std::string& form) {
+    return command
+        .add_option_function<std::string>(
+            name, [&target, parse, name](const std::string& text) { target = parse(name, text); }, help)
+        ->type_name(form);
+}
+
+/// A finite number for which `good` holds; `wanted` says in words which ones those are.
+template <class Number, class Target>
+void addNumber(CLI::App& command, const std::string& name, Target& target, bool (*good)(double),
+               const std::string& wanted, const std::string& help) {
+    const auto store = [&target, good, wanted, name](const Number& value) {
+        const auto number = static_cast<double>(value);
+        if (!std::isfinite(number) || !good(number))
+            throw std::runtime_error(fmt::format("{}: {} will not do; give {}", name, value, wanted));
+        target = value;
+    };
+    command.add_option_function<Number>(name, store, help);
+}
+
+inline bool positive(double value) {
+    return value > 0.0;
+}
+inline bool notNegative(double value) {
+    return value >= 0.0;
+}
+
+}  // namespace tetralux::apps

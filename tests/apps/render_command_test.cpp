@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// tetralux render, info and compare, from files to files.
+#include <projection/image.h>
+
+#include <cmath>
+
+#include "command_line_test.h"
+
+namespace tetralux::tests {
+namespace {
+
+using RenderCommand = CommandLine;
+using projection::Image;
+using projection::readImage;
+
+TEST_F(RenderCommand, FromFileToPixelByTheClosedForm) {
+    write("corner.vtu", vtuText(cornerTetrahedron(5)));
+    expectGood(std::string("render corner.vtu -o a.exr --tf constant.json") + lineView);
+    const double alpha = 1.0 - std::exp(-0.7);  // a length of 1 in the cell
+    const Image image = readImage(path("a.exr"));
+    ASSERT_EQ(image.pixels.size(), 1u);
+    const double expected[4] = {alpha, 0.5 * alpha, 0.25 * alpha, alpha};
+    for (int channel = 0; channel < 4; ++channel) EXPECT_NEAR(image.at(0, 0)[channel], expected[channel], 2e-6);
+}
+
+TEST_F(RenderCommand, BackgroundIsPutUnderLast) {
+    write("corner.vtu", vtuText(cornerTetrahedron(5)));
+    const std::string render = std::string("render corner.vtu --tf constant.json --background 0,1,1") + lineView;
+    expectGood(render + " -o a.exr");
+    expectGood(render + " -o a.png");
+    const double alpha = 1.0 - std::exp(-0.7);
+    const double expected[4] = {alpha, 0.5 * alpha + (1 - alpha), 0.25 * alpha + (1 - alpha), 1.0};
+    for (int channel = 0; channel < 4; ++channel) {
+        EXPECT_NEAR(readImage(path("a.exr")).at(0, 0)[channel], expected[channel], 2e-6);
+        EXPECT_NEAR(readImage(path("a.png")).at(0, 0)[channel], expected[channel], 0.5 / 255 + 1e-6);
+    }
+}
+
+TEST_F(RenderCommand, DefectiveCellsAreLeftOutOrTurnedAndCounted) {
+    // The corner tetrahedron, inverted; a flat one; one with a NaN, which also lies on the line of sight.
+    TinyMesh mesh = cornerTetrahedron(5);
+    mesh.cells[0] = {0, 2, 1, 3};
+    mesh.points.insert(mesh.points.end(), {{1, 1, 0}, {2, 1, 0}, {0, 0, -2}});
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    mesh.values.insert(mesh.values.end(), {5, 5, nan});
+    mesh.cells.push_back({0, 1, 2, 4});
+    mesh.cells.push_back({0, 2, 1, 6});
+    write("defects.vtu", vtuText(mesh));
+    const Outcome outcome =
+        tetralux(std::string("render defects.vtu -o a.exr --tf constant.json --report r.json") + lineView);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NEAR(readImage(path("a.exr")).at(0, 0).w, 1.0 - std::exp(-0.7), 2e-6);
+
+    const nlohmann::json report = json("r.json");
+    EXPECT_EQ(report["cells"]["read"], 3);
+    EXPECT_EQ(report["cells"]["drawn"], 1);
+    std::uint64_t skipped = 0;
+    for (const auto& [reason, count] : report["cells"]["skipped"].items()) skipped += count.get<std::uint64_t>();
+    EXPECT_EQ(skipped, 2u) << report["cells"].dump();
+    EXPECT_EQ(report["cells"]["skipped"]["non-finite scalar"], 1);
+    EXPECT_EQ(report["defects"]["non-finite scalar"]["count"], 1);
+    EXPECT_EQ(report["defects"]["flat cell"]["count"], 1);
+    EXPECT_EQ(report["defects"]["inverted cell"]["count"], 1);
+    EXPECT_NE(outcome.out.find("1 flat cell"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("non-finite scalar"), std::string::npos) << outcome.out;
+}
+
+TEST_F(RenderCommand, ReportHoldsWhatIsPromised) {
+    expectGood(
+        "render bucky:6 -o a.png --size 20x10 --frames 3 --report r.json --engine reference --mode scale-invariant");
+    const nlohmann::json report = json("r.json");
+    EXPECT_EQ(report["engine"], "reference");
+    EXPECT_TRUE(report["renderer"].is_string());
+    EXPECT_EQ(report["cells"]["read"], 5 * 5 * 5 * 5);
+    EXPECT_TRUE(report["cells"]["skipped"].is_object());
+    EXPECT_GT(report["cells"]["drawn"], 0);
+    EXPECT_GE(report["ms"]["read"], 0.0);
+    EXPECT_GE(report["ms"]["prepare"], 0.0);
+    ASSERT_EQ(report["ms"]["frame"].size(), 3u);
+    for (const auto& time : report["ms"]["frame"]) EXPECT_GT(time, 0.0);
+    EXPECT_EQ(report["pixels"]["wrong"], 0);
+    EXPECT_TRUE(report["pixels"]["repaired"].is_number_unsigned());
+    EXPECT_GT(report["peak_memory_bytes"], 1 << 20);
+    EXPECT_LT(report["peak_memory_bytes"], std::int64_t{1} << 36);
+    EXPECT_EQ(report["size"], nlohmann::json({20, 10}));
+    EXPECT_EQ(report["mode"], "scale-invariant");
+    EXPECT_EQ(report["scalar"]["name"], "density");
+}
+
+TEST_F(RenderCommand, FramesTurnOnceAboutUp) {
+    const std::string common = " --size 24x24 --engine reference --quiet ";
+    expectGood("render bucky:6 -o a.exr --frames 4 --eye 0.5,0.5,3" + common);
+    for (const char* name : {"a_0000.exr", "a_0001.exr", "a_0002.exr", "a_0003.exr"}) EXPECT_TRUE(exists(name)) << name;
+    EXPECT_FALSE(exists("a.exr"));
+    EXPECT_FALSE(exists("a_0004.exr"));
+    // A quarter of a turn about y takes +z to +x.
+    for (const auto& [eye, frame] : {std::pair("0.5,0.5,3", "a_0000.exr"), std::pair("3,0.5,0.5", "a_0001.exr"),
+                                     std::pair("0.5,0.5,-2", "a_0002.exr"), std::pair("-2,0.5,0.5", "a_0003.exr")}) {
+        expectGood(fmt::format("render bucky:6 -o one.exr --eye {}{}", eye, common));
+        EXPECT_LT(projection::compareImages(readImage(path("one.exr")), readImage(path(frame))).max, 1e-5) << frame;
+    }
+}
+
+TEST_F(RenderCommand, PngIsTheFloatImageOverBlack) {
+    const std::string common = "render bucky:6 --size 24x24 --engine reference --quiet -o ";
+    expectGood(common + "a.exr");
+    expectGood(common + "a.png");
+    Image image = readImage(path("a.exr"));
+    EXPECT_EQ(image.at(0, 0).w, 0.0f) << "nothing behind the mesh";
+    projection::putUnder(image, glm::vec3(0));
+    EXPECT_LE(projection::compareImages(image, readImage(path("a.png"))).max, 0.5 / 255 + 1e-6);
+}
+
+TEST_F(RenderCommand, DefaultViewHoldsTheWholeMesh) {
+    write("opaque.json", R"({"color": [[0, 1, 1, 1]], "extinction": [[0, 1000]]})");
+    for (const char* size : {"32x32", "64x20", "20x64"}) {
+        expectGood(fmt::format("render bucky:4 -o a.exr --tf opaque.json --engine reference --size {}", size));
+        const Image image = readImage(path("a.exr"));
+        int covered = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) {
+                const bool seen = image.at(x, y).w > 0.5f;
+                covered += seen ? 1 : 0;
+                const bool onBorder = x == 0 || y == 0 || x == image.width - 1 || y == image.height - 1;
+                EXPECT_FALSE(seen && onBorder) << size << ": " << x << ", " << y;
+            }
+        EXPECT_GT(covered, 20 * 20 / 5) << size;
+    }
+}
+
+TEST_F(RenderCommand, QuietSaysNothing) {
+    const Outcome outcome = tetralux("render bucky:4 -o a.png --size 8x8 --engine reference --frames 2 --quiet");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
+TEST_F(RenderCommand, AutoDrawsOnThisMachine) {
+    expectGood("render bucky:4 -o a.png --size 16x16");
+}
+
+TEST_F(RenderCommand, EveryModeDraws) {
+    for (const char* mode : {"standard", "scale-invariant", "mip", "average", "first-hit"}) {
+        expectGood(fmt::format(
+            "render bucky:6 -o a.exr --size 16x16 --engine reference --mode {} --silhouette --light -1,.5,2 "
+            "--light 1,0,0 --ambient 0.2 --exponent 8 --no-transmission",
+            mode));
+        float most = 0;
+        for (const glm::vec4& pixel : readImage(path("a.exr")).pixels) most = std::max(most, pixel.w);
+        EXPECT_GT(most, 0.1f) << mode;
+    }
+}
+
+TEST_F(RenderCommand, RelativePathsAreThoseOfTheWorkingFolder) {
+    std::filesystem::create_directory(folder_ / "below");
+    const Outcome outcome =
+        tetraluxIn(folder_ / "below", "render bucky:4 -o ../a.png --size 8x8 --engine reference --tf ../constant.json");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_TRUE(exists("a.png"));
+}
+
+TEST_F(RenderCommand, AnOldPictureSurvivesAFailedRun) {
+    expectGood("render bucky:4 -o a.png --size 8x8 --engine reference");
+    const std::string before = contentOf(path("a.png"));
+    expectRefused("render missing.vtu -o a.png", {"missing.vtu"});
+    EXPECT_EQ(contentOf(path("a.png")), before);
+}
+
+TEST_F(RenderCommand, InfoTellsCellsFieldsAndDefects) {
+    const Outcome text = tetralux("info bucky:5");
+    EXPECT_EQ(text.status, 0);
+    for (const char* part : {"bucky:5", "320 tetrahedr", "125", "density", "defects: none"})
+        EXPECT_NE(text.out.find(part), std::string::npos) << part << " in\n" << text.out;
+    const nlohmann::json info = nlohmann::json::parse(tetralux("info bucky:5 --json").out);
+    EXPECT_EQ(info["tetrahedra"], 320);
+    EXPECT_EQ(info["fields"][0]["name"], "density");
+    EXPECT_EQ(info["fields"][0]["range"][0][1], 1.0);
+
+    TinyMesh mesh = cornerTetrahedron(5);
+    mesh.cells.push_back({0, 1, 2, 2});
+    write("flat.vtu", vtuText(mesh));
+    const Outcome flat = tetralux("info flat.vtu");
+    EXPECT_EQ(flat.status, 0) << flat.err;
+    EXPECT_NE(flat.out.find("1 flat cell"), std::string::npos) << flat.out;
+}
+
+TEST_F(RenderCommand, CompareMeasures) {
+    Image a(4, 4), b(4, 4);
+    b.at(1, 2).x = 0.5f;
+    projection::writeImage(a, path("a.exr"));
+    projection::writeImage(b, path("b.exr"));
+    const nlohmann::json difference = nlohmann::json::parse(tetralux("compare a.exr b.exr --json").out);
+    EXPECT_NEAR(difference["max"], 0.5, 1e-12);
+    EXPECT_NEAR(difference["rmse"], std::sqrt(0.25 / 64), 1e-12);
+    EXPECT_NEAR(difference["psnr"], -10 * std::log10(0.25 / 64), 1e-9);
+    const Outcome text = tetralux("compare a.exr b.exr");
+    EXPECT_NE(text.out.find("max   0.5\n"), std::string::npos) << text.out;
+    EXPECT_EQ(text.status, 0);
+    EXPECT_EQ(tetralux("compare a.exr b.exr --max-error 0.6 --max-rmse 0.1").status, 0);
+    EXPECT_EQ(tetralux("compare a.exr b.exr --max-error 0.4").status, 1);
+    EXPECT_EQ(tetralux("compare a.exr b.exr --max-rmse 0.01").status, 1);
+    EXPECT_EQ(tetralux("compare a.exr a.exr --max-error 0").status, 0);
+}
+
+TEST_F(RenderCommand, HelpAndVersionAreNoErrors) {
+    for (const char* line : {"--help", "render --help", "info --help", "compare --help", "--version"}) {
+        const Outcome outcome = tetralux(line);
+        EXPECT_EQ(outcome.status, 0) << line;
+        EXPECT_EQ(outcome.err, "") << line;
+        EXPECT_NE(outcome.out, "") << line;
+    }
+}
+
+}  // namespace
+}  // namespace tetralux::tests

@@ -9,6 +9,10 @@
 ///
 /// Isosurfaces and jumps are not in the table: they are `Interface`s at which a segment is split before look-up, so
 /// they are exact. Between two jumps lies a zone with a square block of texels of its own.
+///
+/// Nodes of the transfer function are kinks, across which interpolation errs most. So the mapping from scalar to texel is not
+/// linear but piecewise linear (`warped`): the strongest kinks lie at texel centres, and narrow pieces between them get texels
+/// enough. Short segments, which lie within one piece, then see a table without kinks.
 #pragma once
 
 #include <cstdint>
@@ -48,6 +52,15 @@ struct PreintegrationTable {
     double lengthScale = 1; ///< curvature of the length mapping (table_lookup.glsl)
     std::vector<glm::dvec2> zones;      ///< scalar range [low, high] of each zone, ascending, within the field's range
     std::vector<Interface> interfaces;  ///< ascending by value
+    /// The mapping from scalar to table coordinate (zone + fraction of the zone's texels): Σ warp[k].y·max(s − warp[k].x, 0).
+    /// Where `warped` is false it is linear within each zone, and `zones` alone tell it.
+    std::vector<glm::dvec2> warp;
+    bool warped = false;
+    /// Extinction itself, where the transfer function has few nodes: τ(s) = Σ over k with s ≥ ramps[k].x of
+    /// ramps[k].y + 2·ramps[k].z·(s − ramps[k].x), with jump and half the change of slope at each node, first of all the low end
+    /// of the range. Its mean over a segment is exact; the texels' own serves functions of many nodes, whose `ramps` are empty.
+    std::vector<glm::dvec3> ramps;
+    std::vector<double> texelScalars;   ///< scalar at the centre of texel i of zone z: texelScalars[z·size + i]
     std::vector<glm::vec4> texels;
 
     double measuredError = 0.0;  ///< over sampled segments, against ExactIntegral

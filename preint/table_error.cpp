@@ -64,6 +64,7 @@ struct Sampler {
         rays.push_back(std::move(ray));
     }
     void addSegment(double front, double back) { add({{inRange(front), inRange(back)}, {randomLength()}, {}}); }
+    void addLongSegment(double front, double back) { add({{inRange(front), inRange(back)}, {layout.lengthMax * (0.3 + 0.7 * random())}, {}}); }
 
     void addSegments() {
         constexpr int perKind = 400;
@@ -72,7 +73,7 @@ struct Sampler {
             const double front = randomScalar();
             addSegment(front, front + randomStep());
             const double node = nodes[static_cast<std::size_t>(i) % nodes.size()] + randomStep();
-            addSegment(node, node + randomStep());
+            addLongSegment(node, node + randomStep());
             const double start = nodes[static_cast<std::size_t>(i) % nodes.size()] + randomStep();
             addSegment(start, randomScalar());
         }

@@ -6,14 +6,61 @@
 //   vec4 tableTexel(real u, real v, real w)  the table, linearly filtered. Coordinates count texels, the centre of texel i is i + 1/2.
 //                                            u: front scalar, v: back scalar and zone, w: length slice (1/2 in a 2D table)
 //   real tableSize                           texels per scalar axis of a zone
-//   tableZone[z]                             vec2(low, 1/(high − low)) of zone z; 0 for the reciprocal of an empty range
 //   TETRALUX_INTERFACES                      0: no interfaces, one zone
+//   TETRALUX_WARPS                           entries of the table's warp; 0 (or not defined) when it is not `warped`
+//   vec2 tableWarp[TETRALUX_WARPS]           when warped: the table's `warp`
+//   vec2 tableZone[]                         when not: (low, 1/(high − low)) of each zone, 0 for the reciprocal of an empty range
 //   TETRALUX_SCALE_INVARIANT                 1: 2D table; 0: 3D table, which needs besides
 //   real tableSlices, tableLengthMax, tableLengthScale
 //
-// Each mapping stands beside its inverse. The ends of a range lie at texel centres, so that no texel beyond the zone has weight.
+//   TETRALUX_RAMPS                           entries of the table's `ramps`; 0 (or not defined): mean extinction comes from the texels
+//   vec3 tableRamp[TETRALUX_RAMPS]           the table's `ramps`
+//
+// TETRALUX_WARP_COUNT and TETRALUX_RAMP_COUNT may stand for the numbers of entries where the others are only 0 or 1. Each mapping stands beside its inverse. The ends of a range lie at texel centres, so that no texel beyond the zone has weight.
 
-// Fraction of a zone's range ↔ texel coordinate along a scalar axis.
+#ifndef TETRALUX_WARPS
+#define TETRALUX_WARPS 0
+#endif
+#ifndef TETRALUX_RAMPS
+#define TETRALUX_RAMPS 0
+#endif
+#ifndef TETRALUX_RAMP_COUNT
+#define TETRALUX_RAMP_COUNT TETRALUX_RAMPS
+#endif
+#ifndef TETRALUX_WARP_COUNT
+#define TETRALUX_WARP_COUNT TETRALUX_WARPS
+#endif
+
+// Scalar ↔ fraction of a zone's texels. A sum of ramps rather than a search: no branch, no gather.
+#if TETRALUX_WARPS
+TETRALUX_GLSL_FUNCTION real fractionOfScalar(int zone, real scalar) {
+    real coordinate = -real(zone);
+    for (int k = 0; k < TETRALUX_WARP_COUNT; ++k) {
+        coordinate += tableWarp[k].y * max(scalar - tableWarp[k].x, real(0.0));
+    }
+    return clamp(coordinate, real(0.0), real(1.0));
+}
+TETRALUX_GLSL_FUNCTION real scalarOfFraction(int zone, real fraction) {
+    real missing = real(zone) + fraction;  // table coordinate from the last ramp's start on
+    real scalar = tableWarp[0].x;
+    real slope = tableWarp[0].y;
+    for (int k = 1; k < TETRALUX_WARP_COUNT; ++k) {
+        real covered = slope * (tableWarp[k].x - scalar);
+        if (covered > missing) break;
+        missing -= covered;
+        scalar = tableWarp[k].x;
+        slope += tableWarp[k].y;
+    }
+    return scalar + missing / slope;
+}
+#else
+TETRALUX_GLSL_FUNCTION real fractionOfScalar(int zone, real scalar) {
+    return clamp((scalar - tableZone[zone].x) * tableZone[zone].y, real(0.0), real(1.0));
+}
+TETRALUX_GLSL_FUNCTION real scalarOfFraction(int zone, real fraction) { return tableZone[zone].x + fraction / tableZone[zone].y; }
+#endif
+
+// Fraction of an axis ↔ texel coordinate.
 TETRALUX_GLSL_FUNCTION real texelOfFraction(real fraction, real size) { return real(0.5) + fraction * (size - real(1.0)); }
 TETRALUX_GLSL_FUNCTION real fractionOfTexel(real texel, real size) { return (texel - real(0.5)) / (size - real(1.0)); }
 
@@ -26,21 +73,39 @@ TETRALUX_GLSL_FUNCTION real lengthOfFraction(real fraction, real lengthMax, real
     return scale * (exp(fraction * log(real(1.0) + lengthMax / scale)) - real(1.0));
 }
 
+#if TETRALUX_RAMPS
+// Mean of extinction between two scalars, (Θ(back) − Θ(front))/(back − front), without a difference of integrals: a ramp that begins at
+// s_k covers `share` of the way and rises there from its jump evenly to both ends' heights.
+TETRALUX_GLSL_FUNCTION real meanExtinctionOf(real front, real back) {
+    real way = back - front;
+    real perWay = real(1.0) / select(way == real(0.0), real(1.0), way);
+    real sum = tableRamp[0].y + tableRamp[0].z * ((front - tableRamp[0].x) + (back - tableRamp[0].x));  // begins where the range does
+    for (int k = 1; k < TETRALUX_RAMP_COUNT; ++k) {
+        real beyondFront = max(front - tableRamp[k].x, real(0.0));
+        real beyondBack = max(back - tableRamp[k].x, real(0.0));
+        real share = select(way == real(0.0), select(front < tableRamp[k].x, real(0.0), real(1.0)), (beyondBack - beyondFront) * perWay);
+        sum += share * (tableRamp[k].y + tableRamp[k].z * (beyondFront + beyondBack));
+    }
+    return max(sum, real(0.0));
+}
+#endif
+
 // (mean colour C/α, mean extinction) of a segment within one zone; scalars beyond the zone and lengths beyond the last slice are clamped.
 TETRALUX_GLSL_FUNCTION vec4 tableEntry(int zone, real front, real back, real segmentLength) {
-    real low = tableZone[zone].x;
-    real perScalar = tableZone[zone].y;
-    real u = clamp((front - low) * perScalar, real(0.0), real(1.0));
-    real v = clamp((back - low) * perScalar, real(0.0), real(1.0));
-    real row = texelOfFraction(v, tableSize);
+    real column = texelOfFraction(fractionOfScalar(zone, front), tableSize);
+    real row = texelOfFraction(fractionOfScalar(zone, back), tableSize);
 #if TETRALUX_INTERFACES
     // Zones are stacked, and at its ends float coordinates would give the next zone some 1e-3 of weight: stay inside by that much.
     row = clamp(row, real(0.501), tableSize - real(0.501)) + real(zone) * tableSize;
 #endif
 #if TETRALUX_SCALE_INVARIANT
-    return tableTexel(texelOfFraction(u, tableSize), row, real(0.5));
+    vec4 entry = tableTexel(column, row, real(0.5));
 #else
     real w = min(fractionOfLength(segmentLength, tableLengthMax, tableLengthScale), real(1.0));
-    return tableTexel(texelOfFraction(u, tableSize), row, texelOfFraction(w, tableSlices));
+    vec4 entry = tableTexel(column, row, texelOfFraction(w, tableSlices));
 #endif
+#if TETRALUX_RAMPS
+    if (TETRALUX_RAMP_COUNT > 0) entry.w = meanExtinctionOf(front, back);
+#endif
+    return entry;
 }

@@ -14,10 +14,8 @@ namespace tetralux::preint {
 /// What the look-up texts read beside texels.
 struct TableUniforms {
     explicit TableUniforms(const PreintegrationTable& table)
-        : tableSize(table.size), tableSlices(table.slices), tableLengthMax(table.lengthMax), tableLengthScale(table.lengthScale) {
-        for (const glm::dvec2& zone : table.zones) {
-            tableZone.emplace_back(zone.x, zone.y > zone.x ? 1.0 / (zone.y - zone.x) : 0.0);
-        }
+        : tableSize(table.size), tableSlices(table.slices), tableLengthMax(table.lengthMax), tableLengthScale(table.lengthScale),
+          tableZones(static_cast<int>(table.zones.size())), tableWarp(table.warp), tableRamp(table.ramps) {
         zoneAfter.push_back(0);
         for (const Interface& one : table.interfaces) {
             interfaceValue.push_back(one.value);
@@ -26,7 +24,9 @@ struct TableUniforms {
         }
     }
     double tableSize, tableSlices, tableLengthMax, tableLengthScale;
-    std::vector<glm::dvec2> tableZone;
+    int tableZones;
+    std::vector<glm::dvec2> tableWarp;
+    std::vector<glm::dvec3> tableRamp;
     std::vector<double> interfaceValue;
     std::vector<glm::dvec4> interfaceLayer;
     std::vector<int> zoneAfter;
@@ -36,6 +36,10 @@ struct TableUniforms {
 // coordinates (front, back including zone, slice) and returns a vec4.
 #define TETRALUX_INTERFACES 1
 #define TETRALUX_INTERFACE_COUNT static_cast<int>(interfaceValue.size())
+#define TETRALUX_WARPS 1  // also where the mapping is linear: `warp` holds either
+#define TETRALUX_WARP_COUNT static_cast<int>(tableWarp.size())
+#define TETRALUX_RAMPS 1
+#define TETRALUX_RAMP_COUNT static_cast<int>(tableRamp.size())
 #define TETRALUX_TABLE_READER(name, texelFunction)                                        \
     using real = double;                                                                  \
     using vec3 = glm::dvec3;                                                              \
@@ -73,7 +77,7 @@ template <class Fetch>
 struct ScaleInvariant : TableUniforms {
     TETRALUX_TABLE_READER(ScaleInvariant, (static_cast<void>(w), bilinear(fetch, Position(u, columns()), Position(v, rows()), 0)))
     int columns() const { return static_cast<int>(tableSize); }
-    int rows() const { return columns() * static_cast<int>(tableZone.size()); }
+    int rows() const { return columns() * tableZones; }
 #define TETRALUX_SCALE_INVARIANT 1
 #include <preint/table_lookup.glsl>
 #include <preint/gather_segment.glsl>
@@ -84,7 +88,7 @@ template <class Fetch>
 struct Standard : TableUniforms {
     TETRALUX_TABLE_READER(Standard, trilinear(Position(u, columns()), Position(v, rows()), Position(w, static_cast<int>(tableSlices))))
     int columns() const { return static_cast<int>(tableSize); }
-    int rows() const { return columns() * static_cast<int>(tableZone.size()); }
+    int rows() const { return columns() * tableZones; }
     glm::dvec4 trilinear(const Position& u, const Position& v, const Position& w) {
         const glm::dvec4 low = bilinear(fetch, u, v, w.low);
         return w.weight == 0.0 ? low : glm::mix(low, bilinear(fetch, u, v, w.high), w.weight);
@@ -99,6 +103,10 @@ struct Standard : TableUniforms {
 #pragma GCC diagnostic pop
 
 #undef TETRALUX_TABLE_READER
+#undef TETRALUX_RAMP_COUNT
+#undef TETRALUX_RAMPS
+#undef TETRALUX_WARP_COUNT
+#undef TETRALUX_WARPS
 #undef TETRALUX_INTERFACE_COUNT
 #undef TETRALUX_INTERFACES
 

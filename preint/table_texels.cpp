@@ -35,10 +35,6 @@ TableTexels::TableTexels(const ExactIntegral& exact, const PreintegrationTable& 
     thinLength_ = extinction > 0.0 ? 1e-9 / extinction : 1.0;
 }
 
-double TableTexels::scalarOf(const glm::dvec2& zone, int index) const {
-    return std::lerp(zone.x, zone.y, Mapping().fractionOfTexel(index + 0.5, layout_.size));
-}
-
 double TableTexels::lengthOf(int slice) const {
     if (slice == 0) return thinLength_;
     return Mapping().lengthOfFraction(Mapping().fractionOfTexel(slice + 0.5, layout_.slices), layout_.lengthMax, layout_.lengthScale);
@@ -62,8 +58,9 @@ glm::vec4 TableTexels::diagonal(double scalar, const glm::dvec2& zone) const {
 }
 
 glm::vec4 TableTexels::texel(int i, int row, int k) const {
-    const glm::dvec2& zone = layout_.zones[static_cast<std::size_t>(row / layout_.size)];
-    const double front = scalarOf(zone, i), back = scalarOf(zone, row % layout_.size);
+    const std::size_t zoneIndex = static_cast<std::size_t>(row / layout_.size);
+    const glm::dvec2& zone = layout_.zones[zoneIndex];
+    const double front = layout_.texelScalars[zoneIndex * layout_.size + i], back = layout_.texelScalars[row];
     if (front == back) return diagonal(front, zone);
     const bool standard = layout_.integral == Integral::Standard;
     const double path = standard ? lengthOf(k) : std::abs(back - front);

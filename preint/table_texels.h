@@ -19,7 +19,6 @@ public:
     /// Front texel `i`, back texel `row` = zone·size + j, slice `k`: (mean colour, mean extinction).
     glm::vec4 texel(int i, int row, int k) const;
 
-    double scalarOf(const glm::dvec2& zone, int index) const;  ///< scalar at a texel centre
     double lengthOf(int slice) const;                          ///< mesh units; the first slice stands for the limit of no length
 
     /// The entry of a segment from its integral over optical depth per `path` (scalar difference or length).

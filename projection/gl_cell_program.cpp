@@ -55,6 +55,8 @@ GlDefines variant(const RenderSettings& settings, std::size_t supports, const pr
     defines.set("TETRALUX_ZONES", static_cast<int>(table->zones.size()));
     defines.set("TETRALUX_ZONE_LOW", zone.x);
     defines.set("TETRALUX_ZONE_PER_SCALAR", zone.y);
+    defines.set("TETRALUX_WARPS", table->warped ? static_cast<int>(table->warp.size()) : 0);
+    defines.set("TETRALUX_RAMPS", static_cast<int>(table->ramps.size()));
     defines.set("TETRALUX_TABLE_SIZE", static_cast<double>(table->size));
     defines.set("TETRALUX_TABLE_SLICES", static_cast<double>(table->slices));
     defines.set("TETRALUX_TABLE_LENGTH_MAX", table->lengthMax);
@@ -152,6 +154,10 @@ void GlCellProgram::setConstants(const RenderSettings& settings, const std::vect
     for (const glm::dvec2& range : table->zones) zones.emplace_back(shaderZone(range));
     gl_.Uniform2fv(program_.uniform("tableZone"), static_cast<GLsizei>(zones.size()),
                    reinterpret_cast<const float*>(zones.data()));
+    const std::vector<glm::vec2> warp(table->warp.begin(), table->warp.end());
+    gl_.Uniform2fv(program_.uniform("tableWarp"), static_cast<GLsizei>(warp.size()), reinterpret_cast<const float*>(warp.data()));
+    const std::vector<glm::vec3> ramps(table->ramps.begin(), table->ramps.end());
+    gl_.Uniform3fv(program_.uniform("tableRamp"), static_cast<GLsizei>(ramps.size()), reinterpret_cast<const float*>(ramps.data()));
     std::vector<float> values;
     std::vector<glm::vec4> layers;
     std::vector<GLint> zoneAfter{table->interfaces.empty() ? 0 : table->interfaces.front().zoneBelow};

@@ -15,6 +15,13 @@ uniform int zoneAfter[TETRALUX_INTERFACES + 1];
 const vec2 tableZone[1] = vec2[1](vec2(TETRALUX_ZONE_LOW, TETRALUX_ZONE_PER_SCALAR));
 #endif
 
+#if TETRALUX_WARPS
+uniform vec2 tableWarp[TETRALUX_WARPS];
+#endif
+#if TETRALUX_RAMPS
+uniform vec3 tableRamp[TETRALUX_RAMPS];
+#endif
+
 const float tableRows = tableSize * float(TETRALUX_ZONES);
 
 #if TETRALUX_LINEAR_SAMPLER

@@ -31,6 +31,8 @@ std::string defectName(Defect defect) {
             return "unsupported cell";
         case Defect::FoldedCell:
             return "folded cell";
+        case Defect::OverlappingCells:
+            return "overlapping cells";
     }
     return "unnamed defect";
 }

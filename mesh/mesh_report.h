@@ -23,7 +23,8 @@ enum class Defect {
     CoincidentPoint,
     HiddenCell,
     UnsupportedCell,
-    FoldedCell,  ///< part of it lies inside out
+    FoldedCell,        ///< part of it lies inside out
+    OverlappingCells,  ///< two cells on the same side of their shared face
 };
 
 std::string defectName(Defect defect);

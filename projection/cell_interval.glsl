@@ -20,19 +20,31 @@ TETRALUX_GLSL_FUNCTION real planeRho(cell_real constant, cell_real perX, cell_re
     return constant + perX * dx + perY * dy;
 }
 
+// Depth ratio r = z/z_c at rho, perspective. Engines that vectorize get the ratios of both ends of a segment from one reciprocal.
+TETRALUX_GLSL_FUNCTION real depthRatio(real rho) { return real(1.0) / (real(1.0) + rho); }
+
 // Length of the segment between two values of rho, in scene length units, for a ray direction of length `rayLength`
 // per unit depth (1 in orthographic views).
+TETRALUX_GLSL_FUNCTION real segmentLengthOfRatios(cell_real scale, real rhoIn, real rhoOut, real ratioIn, real ratioOut,
+                                                  real rayLength) {
+    return scale * rayLength * ((rhoIn - rhoOut) * ratioIn) * ratioOut;
+}
 TETRALUX_GLSL_FUNCTION real segmentLengthPerspective(cell_real scale, real rhoIn, real rhoOut, real rayLength) {
-    return scale * rayLength * ((rhoIn - rhoOut) / (real(1.0) + rhoIn)) / (real(1.0) + rhoOut);
+    return segmentLengthOfRatios(scale, rhoIn, rhoOut, depthRatio(rhoIn), depthRatio(rhoOut), rayLength);
 }
 TETRALUX_GLSL_FUNCTION real segmentLengthOrthographic(cell_real scale, real rhoIn, real rhoOut) {
     return abs(real(scale)) * (rhoIn - rhoOut);
 }
 
-// Scalar at rho: value at c plus gradient, kept within the cell's own range, which rounding may leave in slivers.
+// Scalar at rho: value at c plus gradient, kept within the cell's own range, which rounding may leave in slivers. `across` is
+// perX·dx + perY·dy, the same at both ends of a segment.
+TETRALUX_GLSL_FUNCTION real scalarOfRatio(cell_real atReference, real across, cell_real perRho, real rho, real ratio,
+                                          cell_real low, cell_real high) {
+    return clamp(atReference + (across + perRho * rho) * ratio, real(low), real(high));
+}
 TETRALUX_GLSL_FUNCTION real scalarPerspective(cell_real atReference, cell_real perX, cell_real perY, cell_real perRho,
                                               real dx, real dy, real rho, cell_real low, cell_real high) {
-    return clamp(atReference + (perX * dx + perY * dy + perRho * rho) / (real(1.0) + rho), real(low), real(high));
+    return scalarOfRatio(atReference, perX * dx + perY * dy, perRho, rho, depthRatio(rho), low, high);
 }
 TETRALUX_GLSL_FUNCTION real scalarOrthographic(cell_real atReference, cell_real perX, cell_real perY, cell_real perRho,
                                                real dx, real dy, real rho, cell_real low, cell_real high) {

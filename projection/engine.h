@@ -23,6 +23,7 @@ struct FrameReport {
     std::map<std::string, double> stageMilliseconds;         ///< wall time by stage: "sort", "setup", "draw", …
     double frameMilliseconds = 0.0;                          ///< from the new camera to the float image in memory
     std::uint64_t fragments = 0;                             ///< cell–pixel segments, where the engine counts them
+    std::uint64_t tilesRetired = 0;                          ///< tiles that were opaque before their cells were drawn
     std::string orderMethod;                                 ///< how visibility order was found; "none" when not needed
     std::uint64_t cellsSorted = 0;
     std::uint64_t orderCycles = 0;                           ///< cells left in cycles of the visibility relation

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <projection/cpu_engine.h>
 #include <projection/engine.h>
 #include <projection/exact_repair.h>
 #include <projection/gl_engine.h>
@@ -21,6 +22,7 @@ struct RegisteredEngine {
 
 // The first one is what "auto" takes.
 constexpr std::array engines{
+    RegisteredEngine{"cpu", makeCpuEngine},
     RegisteredEngine{"gl", makeGlEngine},
     RegisteredEngine{"reference", makeReferenceEngine},
 };

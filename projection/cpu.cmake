@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: Apache-2.0
+# The tile engine. Its kernels are compiled once per instruction set by Highway, which picks one at run time.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(Highway REQUIRED IMPORTED_TARGET libhwy)
+target_sources(tetralux_projection PRIVATE
+  cpu_bins.cpp
+  cpu_cull.cpp
+  cpu_engine.cpp
+  cpu_order.cpp
+  cpu_special_cell.cpp
+  cpu_tile_kernel.cpp
+  cpu_transfer.cpp
+)
+target_link_libraries(tetralux_projection PRIVATE PkgConfig::Highway)
+# The least that vectors of four need; Highway's portable form has one lane.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  set_source_files_properties(cpu_tile_kernel.cpp PROPERTIES COMPILE_OPTIONS "-msse4.2;-maes;-mpclmul")
+endif()

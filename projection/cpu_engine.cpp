@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/cpu_engine.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <numeric>
+#include <optional>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <projection/cpu_bins.h>
+#include <projection/cpu_cull.h>
+#include <projection/cpu_order.h>
+#include <projection/cpu_tile.h>
+#include <projection/transfer_support.h>
+
+namespace tetralux::projection {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Distance from which nearness is measured is at least this, in scene lengths: the eye may stand in the mesh.
+constexpr double leastDepthReference = 0.5;
+
+/// Rounding of nearness that the order check allows for, relative to the mesh's extent.
+constexpr double orderRounding = 1e-6;
+
+/// Counts per chunk and tile are kept below this, and chunks above a size that is worth a task.
+constexpr std::size_t mostPlaces = std::size_t{1} << 20, leastChunk = 4096, usualChunk = 16384;
+
+class CpuEngine final : public Engine {
+public:
+    CpuEngine(const Scene& scene, const CpuSkips& skips)
+        : scene_(scene), skips_(skips), mesh_(*scene.mesh), units_(sceneUnits(mesh_)),
+          transfer_(inSceneUnits(scene.transferFunction, units_, integralOf(scene.settings.mode))),
+          arena_(scene.settings.threads > 0 ? scene.settings.threads : tbb::task_arena::automatic) {
+        arena_.execute([&] { prepare(); });
+    }
+
+    Image render(const Camera& camera, FrameReport& report) override {
+        const auto start = Clock::now();
+        Image image(camera.width, camera.height);
+        arena_.execute([&] {
+            if (!(skips_.keepFrame && keptCamera_ == camera)) {
+                keptCamera_.reset();
+                makeLists(camera, report);
+                keptCamera_ = camera;
+            }
+            draw(image, report);
+        });
+        report.cellsSkipped = skipped_;
+        report.cellsDrawn = cellsDrawn_;
+        report.orderMethod = order_.method;
+        report.orderCycles = order_.cyclicCells;
+        report.frameMilliseconds = millisecondsSince(start);
+        return image;
+    }
+
+    std::string name() const override { return "cpu"; }
+    std::string renderer() const override {
+        return fmt::format("{}, {} threads", tileInstructionSet(), arena_.max_concurrency());
+    }
+    std::map<std::string, double> prepareMilliseconds() const override { return prepareMilliseconds_; }
+
+private:
+    void prepare();
+    void findVisibleCells();
+    TileKind kind() const;
+    bool ordered() const { return !(frame_.kind == TileKind::Mip || frame_.kind == TileKind::Average || frame_.kind == TileKind::Absorption); }
+    void makeLists(const Camera& camera, FrameReport& report);
+    void setFrame(const CameraFrame& frame);
+    void cull(std::size_t tiles);
+    void draw(Image& image, FrameReport& report);
+    void sortTilesByWork();
+
+    const Scene scene_;
+    const CpuSkips skips_;
+    const mesh::ScalarMesh& mesh_;
+    const SceneUnits units_;
+    const CpuTransfer transfer_;
+    tbb::task_arena arena_;
+    std::map<std::string, double> prepareMilliseconds_;
+
+    // of the scene
+    std::vector<float> scalars_;
+    bool allVisible_ = true;
+    std::vector<mesh::CellIndex> visible_;
+    std::optional<CpuOrder> orderKeys_;
+
+    // of the last camera
+    std::optional<Camera> keptCamera_;
+    std::vector<CpuPoint> points_;
+    TileFrame frame_{};
+    int tilesX_ = 0, tilesY_ = 0;
+    std::vector<Survivor> survivors_;
+    std::vector<SurvivorChunk> chunks_;
+    TileBins bins_;
+    std::vector<std::uint32_t> tilesByWork_;
+    CpuFrameOrder order_;
+    std::uint64_t cellsDrawn_ = 0;
+    std::map<std::string, std::uint64_t> skipped_;
+};
+
+TileKind CpuEngine::kind() const {
+    const auto& shading = scene_.settings.shading;
+    switch (scene_.settings.mode) {
+        case Mode::Mip: return TileKind::Mip;
+        case Mode::Average: return TileKind::Average;
+        case Mode::FirstHit: return TileKind::FirstHit;
+        default: break;
+    }
+    if (shading.needsGradient()) return TileKind::Shaded;
+    return skips_.orderFree && transfer_.constantColor() ? TileKind::Absorption : TileKind::Composite;
+}
+
+void CpuEngine::prepare() {
+    const auto start = Clock::now();
+    scalars_.resize(mesh_.scalars.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scalars_.size(), 4096), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i)
+            scalars_[i] = static_cast<float>(units_.toUnit(mesh_.scalars[i]));
+    });
+    frame_.kind = kind();
+    frame_.cells = mesh_.cells.data();
+    frame_.scalars = scalars_.data();
+    frame_.cellData = mesh_.association == mesh::Association::Cell;
+    frame_.transfer = &transfer_;
+    frame_.scaleInvariant = integralOf(scene_.settings.mode) == preint::Integral::ScaleInvariant;
+    frame_.shading = &scene_.settings.shading;
+    frame_.earlyTermination = skips_.earlyTermination;
+    frame_.ordered = ordered();
+    const bool everyScalarCounts = frame_.kind == TileKind::Mip || frame_.kind == TileKind::Average;
+    if (skips_.invisibleCells && !everyScalarCounts) findVisibleCells();
+    prepareMilliseconds_["cells"] = millisecondsSince(start);
+    if (!frame_.ordered) return;
+    const auto orderStart = Clock::now();
+    orderKeys_.emplace(mesh_);
+    prepareMilliseconds_["order"] = millisecondsSince(orderStart);
+}
+
+/// Which cells the transfer function shows: asked once, since it depends on no camera.
+void CpuEngine::findVisibleCells() {
+    const auto& function = scene_.transferFunction;
+    const auto support = extinctionSupport(function);
+    const auto integral = integralOf(scene_.settings.mode);
+    std::vector<std::uint8_t> shows(mesh_.cells.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, shows.size(), 4096), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            double s[4];
+            for (int k = 0; k < 4; ++k) s[k] = mesh_.scalarAt(static_cast<mesh::CellIndex>(i), k);
+            shows[i] = rangeShows(function, support, std::min({s[0], s[1], s[2], s[3]}), std::max({s[0], s[1], s[2], s[3]}), integral);
+        }
+    });
+    const auto count = static_cast<std::size_t>(std::count(shows.begin(), shows.end(), std::uint8_t{1}));
+    allVisible_ = count == shows.size();
+    if (allVisible_) return;
+    visible_.reserve(count);
+    for (std::size_t i = 0; i < shows.size(); ++i)
+        if (shows[i]) visible_.push_back(static_cast<mesh::CellIndex>(i));
+}
+
+void CpuEngine::setFrame(const CameraFrame& frame) {
+    frame_.points = points_.data();
+    frame_.orthographic = frame.orthographic;
+    frame_.width = frame.width;
+    frame_.height = frame.height;
+    frame_.centre = frame.centre - sampleShift;
+    frame_.pixel = glm::length(frame.perPixelRight) / (frame.orthographic ? units_.length : 1.0);
+    const double middle = glm::dot(mesh_.bounds.centre() - frame.eye, frame.forward) / units_.length;
+    frame_.depthReference = frame.orthographic ? middle : std::max(middle, leastDepthReference);
+    frame_.orderTolerance = static_cast<float>(orderRounding / (frame.orthographic ? 1.0 : frame_.depthReference));
+    frame_.lights.clear();
+    for (const auto& light : scene_.settings.shading.lights) {
+        const glm::dvec3 towards = glm::normalize(light.towards);
+        frame_.lights.push_back({static_cast<float>(glm::dot(towards, frame.right)), static_cast<float>(-glm::dot(towards, frame.up)),
+                                 static_cast<float>(glm::dot(towards, frame.forward))});
+    }
+}
+
+void CpuEngine::makeLists(const Camera& camera, FrameReport& report) {
+    auto& stages = report.stageMilliseconds;
+    auto start = Clock::now();
+    auto finish = [&](const char* stage) {
+        stages[stage] += millisecondsSince(start);
+        start = Clock::now();
+    };
+    const CameraFrame frame = cameraFrame(camera);
+    projectPoints(mesh_, units_, frame, points_);
+    setFrame(frame);
+    finish("project");
+
+    tilesX_ = (frame.width + cpuTileSize - 1) / cpuTileSize;
+    tilesY_ = (frame.height + cpuTileSize - 1) / cpuTileSize;
+    cull(static_cast<std::size_t>(tilesX_) * static_cast<std::size_t>(tilesY_));
+    finish("cull");
+
+    order_ = {};
+    order_.method = "none";
+    if (frame_.ordered) {
+        order_ = orderKeys_->assignKeys(frame, chunks_, survivors_);
+        finish("sort");
+    }
+    bins_.fill(survivors_, chunks_, tilesX_, tilesY_, order_.nearest, order_.farthest);
+    sortTilesByWork();
+    finish("bin");
+    if (frame_.ordered) {
+        bins_.sort();
+        report.cellsSorted = cellsDrawn_;
+        finish("sort");
+    }
+}
+
+void CpuEngine::cull(std::size_t tiles) {
+    const std::size_t candidates = allVisible_ ? mesh_.cells.size() : visible_.size();
+    const std::size_t chunkSize =
+        std::max({leastChunk, std::min(usualChunk, candidates / 64), candidates * tiles / mostPlaces + 1});
+    const std::size_t chunkCount = (candidates + chunkSize - 1) / chunkSize;
+    survivors_.resize(candidates);
+    chunks_.resize(chunkCount);
+    std::vector<CullCounts> counts(chunkCount);
+    tbb::parallel_for(std::size_t{0}, chunkCount, [&](std::size_t c) {
+        const std::size_t begin = c * chunkSize, end = std::min(candidates, begin + chunkSize);
+        chunks_[c] = {begin, cullCells(frame_, allVisible_ ? nullptr : visible_.data(), begin, end, survivors_.data() + begin, counts[c])};
+    });
+    cellsDrawn_ = 0;
+    for (const auto& chunk : chunks_) cellsDrawn_ += chunk.count;
+    CullCounts sum;
+    for (const auto& count : counts) {
+        sum.outsideView += count.outsideView;
+        sum.noPixelCentre += count.noPixelCentre;
+    }
+    skipped_.clear();
+    auto skip = [&](SkipReason reason, std::uint64_t cells) {
+        if (cells > 0) skipped_[skipReasonName(reason)] = cells;
+    };
+    skip(SkipReason::OutsideView, sum.outsideView);
+    skip(SkipReason::NoPixelCentre, sum.noPixelCentre);
+    skip(SkipReason::Invisible, mesh_.cells.size() - candidates);
+}
+
+/// Longest lists first, so that no thread is left alone with one at the end.
+void CpuEngine::sortTilesByWork() {
+    tilesByWork_.resize(bins_.tileCount());
+    std::iota(tilesByWork_.begin(), tilesByWork_.end(), 0u);
+    std::stable_sort(tilesByWork_.begin(), tilesByWork_.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return bins_.tile(a).size() > bins_.tile(b).size(); });
+}
+
+void CpuEngine::draw(Image& image, FrameReport& report) {
+    const auto start = Clock::now();
+    std::vector<TileResult> results(bins_.tileCount());
+    std::atomic<std::size_t> next{0};
+    const int threads = arena_.max_concurrency();
+    tbb::parallel_for(0, threads, [&](int) {
+        for (std::size_t i = next++; i < tilesByWork_.size(); i = next++) {
+            const std::uint32_t tile = tilesByWork_[i];
+            const auto columns = static_cast<std::uint32_t>(tilesX_);
+            drawTile(frame_, static_cast<int>(tile % columns) * cpuTileSize, static_cast<int>(tile / columns) * cpuTileSize,
+                     bins_.tile(tile), image, results[tile]);
+        }
+    }, tbb::simple_partitioner());
+    std::vector<std::uint32_t> doubtfulPixels = order_.doubtfulPixels;
+    for (const TileResult& result : results) {
+        report.fragments += result.fragments;
+        report.tilesRetired += result.retired ? 1 : 0;
+        doubtfulPixels.insert(doubtfulPixels.end(), result.doubtfulPixels.begin(), result.doubtfulPixels.end());
+    }
+    std::sort(doubtfulPixels.begin(), doubtfulPixels.end());
+    doubtfulPixels.erase(std::unique(doubtfulPixels.begin(), doubtfulPixels.end()), doubtfulPixels.end());
+    report.doubtfulPixels = std::move(doubtfulPixels);
+    report.stageMilliseconds["draw"] += millisecondsSince(start);
+}
+
+}  // namespace
+
+std::unique_ptr<Engine> makeCpuEngineWith(const Scene& scene, const CpuSkips& skips) {
+    return std::make_unique<CpuEngine>(scene, skips);
+}
+
+std::unique_ptr<Engine> makeCpuEngine(const Scene& scene, const EngineOptions&) { return makeCpuEngineWith(scene, CpuSkips{}); }
+
+}  // namespace tetralux::projection

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// From a segment of every pixel of a block to colour: along the pieces of the transfer function, front to back. Included once per instruction set.
+///
+/// A segment within one piece needs neither table nor exponential (cpu_piece.glsl). One that crosses nodes is cut there, exactly, and walks through
+/// its pieces; a cell's pixels do so together, those along which the scalar rises upwards and the others downwards.
+#include <projection/cpu_simd.h>
+
+#include <projection/cpu_transfer.h>
+
+#if defined(TETRALUX_CPU_SEGMENT_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TETRALUX_CPU_SEGMENT_H
+#undef TETRALUX_CPU_SEGMENT_H
+#else
+#define TETRALUX_CPU_SEGMENT_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace tetralux::projection::HWY_NAMESPACE {
+
+#undef TETRALUX_GLSL_FUNCTION
+#define TETRALUX_GLSL_FUNCTION HWY_INLINE
+#include <projection/cell_interval.glsl>
+#include <projection/cpu_piece.glsl>
+
+/// Premultiplied colour and transmittance, gathered front to back.
+struct ColorSink {
+    static constexpr bool depthOnly = false;
+    real r, g, b, t;
+
+    /// Adds t·(c₀·α + c₁·q) where the colour is c₀ + c₁·(s − middle) and q the α-weighted s − middle.
+    HWY_INLINE void add(const TransferPiece& piece, real opacity, real weighted) {
+        const real ta = t * opacity, tq = t * weighted;
+        r += real(piece.color[0]) * ta + real(piece.colorSlope[0]) * tq;
+        g += real(piece.color[1]) * ta + real(piece.colorSlope[1]) * tq;
+        b += real(piece.color[2]) * ta + real(piece.colorSlope[2]) * tq;
+        t = t - ta;
+    }
+    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) {
+        const real ta = keep(crossed, t * real(peak.opacity));
+        r += real(peak.color[0]) * ta;
+        g += real(peak.color[1]) * ta;
+        b += real(peak.color[2]) * ta;
+        t = t - ta;
+    }
+    HWY_INLINE void addDepth(real) {}
+};
+
+/// The same for one segment that silhouettes and light will change: its opacity (1 − t would lose thin ones) and optical depths are wanted too.
+struct SegmentSink : ColorSink {
+    real opacity, smoothDepth, otherDepth;
+
+    HWY_INLINE void add(const TransferPiece& piece, real pieceOpacity, real weighted) {
+        opacity += t * pieceOpacity;
+        ColorSink::add(piece, pieceOpacity, weighted);
+    }
+    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) {
+        opacity += keep(crossed, t * real(peak.opacity));
+        ColorSink::addPeak(peak, crossed);
+        otherDepth = otherDepth + keep(crossed, real(peak.depth));
+    }
+    HWY_INLINE void addDepth(real depth) { smoothDepth = smoothDepth + depth; }
+};
+
+/// Optical depth alone.
+struct DepthSink {
+    static constexpr bool depthOnly = true;
+    real depth;
+
+    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) { depth = depth + keep(crossed, real(peak.depth)); }
+    HWY_INLINE void addDepth(real more) { depth = depth + more; }
+};
+
+/// Segments too deep for the polynomials: cut into parts of equal depth up to where nothing more is seen.
+template <class Sink>
+HWY_NOINLINE void addDeepPiece(const TransferPiece& piece, real middle, real half, real depth, real halfStep, Sink& sink) {
+    constexpr float seen = 16.0f;  // exp(−16) = 1e-7
+    const real tame = min(real(1.0f), real(1e12f) / max(depth, real(1e-30f)));  // squares of more leave the range of float
+    const real front = max((depth - halfStep) * tame, real(0.0f)), back = max((depth + halfStep) * tame, real(0.0f));
+    const real whole = depth * tame, shown = min(whole, real(seen));
+    // half of the depth limit: a part that begins without extinction has |δ| = D
+    const int parts = std::max(1, static_cast<int>(std::ceil(largest(shown) / 0.5f)));
+    real begin(0.0f);
+    for (int i = 1; i <= parts; ++i) {
+        real end = pieceFraction(front, back, shown * real(static_cast<float>(i) / static_cast<float>(parts)));
+        if (i == parts) end = select(whole > real(seen), end, real(1.0f));
+        const real width = end - begin, centre = begin + end;  // centre: −1 … 1 after − 1
+        const real slope = back - front;
+        const real d = max((front + slope * (real(0.5f) * centre)) * width, real(0.0f));
+        const real step = real(0.5f) * slope * (width * width);
+        const real opacity = pieceOpacity(min(d, real(1.0f)));
+        const real skew = pieceSkew(min(d, real(1.0f)), clamp(step, real(-0.5f), real(0.5f)));
+        const real at = middle + half * (centre - real(1.0f));
+        sink.add(piece, opacity, at * opacity + half * width * skew);
+        begin = end;
+    }
+}
+
+/// Adds a segment within one piece: `middle` and `half` are its mean scalar less the piece's own middle and half its scalar step, `path` its length
+/// or its variation of the scalar (0 where there is nothing to add).
+template <class Sink>
+HWY_INLINE void addPiece(const TransferPiece& piece, real middle, real half, real path, Sink& sink) {
+    const real slope(piece.extinctionSlope);
+    const real depth = max(path * (real(piece.extinction) + slope * middle), real(0.0f));
+    sink.addDepth(depth);
+    if constexpr (!Sink::depthOnly) {
+        const real halfStep = path * slope * half;
+        const mask deep = either(depth > pieceDepthLimit(), abs(halfStep) > pieceSlopeLimit());
+        if (HWY_LIKELY(none(deep))) {
+            const real opacity = pieceOpacity(depth);
+            sink.add(piece, opacity, middle * opacity + half * pieceSkew(depth, halfStep));
+        } else {
+            addDeepPiece(piece, middle, half, depth, halfStep, sink);
+        }
+    }
+}
+
+/// A segment of every pixel of a block. Where a pixel has none, `length` is 0 and both scalars are equal.
+struct Segments {
+    real front, back;  ///< scalars
+    real length;       ///< scene lengths
+    mask live;
+};
+
+template <bool ScaleInvariant, class Sink>
+HWY_INLINE void addWithinPiece(const TransferPiece& piece, const Segments& segments, Sink& sink) {
+    const real half = real(0.5f) * (segments.back - segments.front);
+    const real middle = segments.front + half - real(piece.middle);
+    addPiece(piece, middle, half, ScaleInvariant ? abs(half + half) : segments.length, sink);
+}
+
+/// The part of the segments within one of several pieces. `perScalar`: path per unit of scalar, 0 in pixels that do not take part.
+template <class Sink>
+HWY_INLINE void addClipped(const TransferPiece& piece, const Segments& segments, real perScalar, Sink& sink) {
+    if (!piece.visible) return;
+    const real low(piece.low), high(piece.high);
+    const real begin = clamp(segments.front, low, high), end = clamp(segments.back, low, high);
+    const real step = end - begin;
+    const real path = abs(step) * perScalar;
+    if (none(path > real(0.0f))) return;
+    const real half = real(0.5f) * step;
+    addPiece(piece, begin + half - real(piece.middle), half, path, sink);
+}
+
+/// Segments that cross nodes or isosurfaces: pieces first … last of the transfer function.
+template <bool ScaleInvariant, class Sink>
+HWY_INLINE void addAcrossPieces(const CpuTransfer& transfer, std::size_t first, std::size_t last, const Segments& segments,
+                                Sink& sink) {
+    const auto& pieces = transfer.pieces();
+    const auto& peaks = transfer.peaks();
+    // a step too small to be divided by is made larger: the pieces that it lies in stay the same within 1e-6 of the range
+    Segments cut = segments;
+    const real leastStep(1e-6f);
+    if constexpr (!ScaleInvariant)
+        cut.back = select(abs(segments.back - segments.front) < leastStep, segments.front + leastStep, segments.back);
+    const real step = cut.back - cut.front;
+    const mask rising = both(step > real(0.0f), segments.live), falling = both(step < real(0.0f), segments.live);
+    const real perScalar = ScaleInvariant ? real(1.0f) : segments.length / abs(step);
+    if (!none(rising)) {
+        const real rate = keep(rising, perScalar);
+        for (std::size_t k = first; k <= last; ++k) {
+            addClipped(pieces[k], cut, rate, sink);
+            if (k == last) break;
+            for (std::uint32_t i = pieces[k].peakBegin; i < pieces[k].peakEnd; ++i) {
+                const real value(peaks[i].value);
+                sink.addPeak(peaks[i], both(rising, exactlyOne(segments.front < value, segments.back < value)));
+            }
+        }
+    }
+    if (!none(falling)) {
+        const real rate = keep(falling, perScalar);
+        for (std::size_t k = last + 1; k-- > first;) {
+            addClipped(pieces[k], cut, rate, sink);
+            if (k == first) break;
+            for (std::uint32_t i = pieces[k - 1].peakEnd; i-- > pieces[k - 1].peakBegin;) {
+                const real value(peaks[i].value);
+                sink.addPeak(peaks[i], both(falling, exactlyOne(segments.front < value, segments.back < value)));
+            }
+        }
+    }
+}
+
+}  // namespace tetralux::projection::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// What the stages of the tile engine hand each other.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <mesh/tet_mesh.h>
+#include <projection/camera.h>
+#include <projection/cell_setup.h>
+#include <projection/cpu_transfer.h>
+#include <projection/image.h>
+#include <projection/scene.h>
+
+namespace tetralux::projection {
+
+/// Pixels along a tile's side.
+inline constexpr int cpuTileSize = 32;
+
+/// A mesh point before the camera: x and y in pixels times depth (pixels when orthographic), z the depth, lengths in scene
+/// units, the image's sample shift included; and its pixel. A point at or behind the eye's plane has no pixel: pixelX is NaN.
+struct CpuPoint {
+    double x, y, z;
+    float pixelX, pixelY;
+};
+static_assert(sizeof(CpuPoint) == 32);
+
+/// A cell in a tile's list. Ascending keys are front to back.
+struct TileEntry {
+    std::uint32_t key;
+    mesh::CellIndex cell;
+};
+
+/// What the picture asks of a tile.
+enum class TileKind {
+    Composite,     ///< colour and transmittance, front to back
+    Absorption,    ///< optical depth only: all that is seen has one colour
+    Mip,
+    Average,
+    Shaded,        ///< composite with silhouettes or light
+    FirstHit
+};
+
+/// The same for all tiles of one frame.
+struct TileFrame {
+    const CpuPoint* points;
+    const mesh::Tetrahedron* cells;
+    const float* scalars;  ///< scene units, per point or per cell
+    bool cellData;
+    const CpuTransfer* transfer;
+    TileKind kind;
+    bool scaleInvariant;
+    bool ordered;  ///< entries come front to back, so a pixel where they do not is doubtful
+    bool orthographic;
+    int width, height;
+    glm::dvec2 centre;     ///< pixel coordinates of the optical axis, sample shift taken off
+    double pixel;          ///< size of a pixel at depth 1 (orthographic: in scene lengths)
+    double depthReference; ///< scene lengths: nearness along rays is measured from this depth
+    float orderTolerance;  ///< of nearness
+    const shading::ShadingSettings* shading;
+    std::vector<std::array<float, 3>> lights;  ///< towards each, as (right, down, forward)
+    bool earlyTermination;
+};
+
+struct TileResult {
+    std::uint64_t fragments = 0;
+    std::uint64_t cellsSetUp = 0;
+    bool retired = false;  ///< opaque before its list ended
+    std::vector<std::uint32_t> doubtfulPixels;
+};
+
+/// Below this transmittance a pixel is finished: colours are at most 1, so that is also the largest error of a channel.
+inline constexpr float leastTransmittance = 1e-6f;
+
+/// Draws the tile whose first pixel is (x0, y0) into `image`.
+void drawTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image, TileResult& result);
+
+/// Name of the instruction set that drawTile uses.
+const char* tileInstructionSet();
+
+}  // namespace tetralux::projection

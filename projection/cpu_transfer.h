@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// A transfer function cut at its nodes: what the tile engine walks through instead of looking up a table.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <preint/exact_integral.h>
+#include <projection/cell_setup.h>
+
+namespace tetralux::projection {
+
+/// Scalars low ≤ s < high (scene units) on which colour and extinction are linear, given about `middle`.
+struct TransferPiece {
+    float low, high, middle;
+    float extinction, extinctionSlope;  ///< per scene length, or per unit of scalar (scale-invariant)
+    float color[3], colorSlope[3];
+    bool visible;                       ///< has extinction
+    std::uint32_t peakBegin, peakEnd;   ///< isosurfaces at `high`
+};
+
+struct TransferPeak {
+    float value, opacity, depth;  ///< depth = −ln(1 − opacity), at most 1e4
+    float color[3];
+};
+
+class CpuTransfer {
+public:
+    /// `function` in scene units (inSceneUnits).
+    explicit CpuTransfer(const preint::TransferFunction& function);
+
+    const std::vector<TransferPiece>& pieces() const { return pieces_; }
+    const std::vector<TransferPeak>& peaks() const { return peaks_; }
+
+    /// The piece with low ≤ s < high, or low < s ≤ high.
+    std::size_t pieceFromAbove(float s) const;
+    std::size_t pieceFromBelow(float s) const;
+
+    /// Whether all that can be seen has one colour, so that order does not matter.
+    bool constantColor() const { return constantColor_; }
+    glm::dvec3 color() const { return color_; }
+
+    /// The colour at one scalar, also where nothing is visible (largest and mean scalar modes).
+    glm::dvec3 colorAt(double scalar) const { return function_.colorAt(scalar); }
+
+private:
+    void addPiece(const preint::TransferFunction& function, double low, double high);
+    void findConstantColor();
+
+    preint::TransferFunction function_;
+    std::vector<TransferPiece> pieces_;
+    std::vector<TransferPeak> peaks_;
+    std::vector<std::uint32_t> firstPiece_;  // by equal steps over [0, 1]
+    bool constantColor_ = false;
+    glm::dvec3 color_{0};
+};
+
+}  // namespace tetralux::projection

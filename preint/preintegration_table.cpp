@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -29,6 +30,7 @@ constexpr int largestRows2D = 16384;  ///< zones·size: what OpenGL implementati
 constexpr int largestRows3D = 2048;
 constexpr int largestSize2D = 2048, largestSize3D = 512, largestSlices = 64;
 constexpr std::size_t largestTexels = std::size_t{1} << 24;  ///< 256 MiB
+constexpr std::size_t quickTexels = std::size_t{1} << 19;    ///< 8 MiB: stays in cache, builds in some 0.1 s
 /// Depth up to which slices lie evenly: mean colour bends at depths about 1, but counts there less than where light is absorbed. From
 /// 2 to 8 errors of tables with 4 to 16 slices differ little; 1 doubles them.
 constexpr double evenDepth = 5.0;
@@ -136,20 +138,31 @@ public:
     SizeChooser(const ExactIntegral& exact, const TableOptions& options, double scalarMin, double scalarMax)
         : exact_(exact), options_(options), scalarMin_(scalarMin), scalarMax_(scalarMax) {}
 
-    /// Lays `table` out: without cuts at kinks, which make look-up cheapest; with them if only so the error is kept or at least halved.
+    /// Lays `table` out: the first of three ways that keeps the error, or the one that comes closest. Without cuts at kinks look-up
+    /// does least, but the table must be large; with them it is small, and look-up is hardly slower (a few per cent of a frame
+    /// on llvmpipe).
     void choose(PreintegrationTable& table) {
-        PreintegrationTable cut = table;
-        const double error = grown(table, KinkCuts::None);
-        if (error <= options_.wantedError) return;
-        if (const double cutError = grown(cut, KinkCuts::All); cutError < 0.5 * error) table = std::move(cut);
+        const std::pair<KinkCuts, std::size_t> ways[] = {
+            {KinkCuts::None, quickTexels}, {KinkCuts::All, largestTexels}, {KinkCuts::None, largestTexels}};
+        const PreintegrationTable empty = table;
+        double least = HUGE_VAL;
+        for (const auto& [cuts, texels] : ways) {
+            PreintegrationTable candidate = empty;
+            const double error = grown(candidate, cuts, texels);
+            if (error < least) {
+                least = error;
+                table = std::move(candidate);
+            }
+            if (least <= options_.wantedError) return;
+        }
     }
 
     /// The rays by which sizes were judged.
     const std::vector<SampleRay>& rays() const { return rays_; }
 
 private:
-    /// The layout with the size that suits it; returns its error.
-    double grown(PreintegrationTable& table, KinkCuts cuts) {
+    /// The layout with the size that suits it, of at most `mostTexels` unless the options ask for more; returns its error.
+    double grown(PreintegrationTable& table, KinkCuts cuts, std::size_t mostTexels) {
         kinks_ = layOutTable(exact_, scalarMin_, scalarMax_, cuts, table);
         if (rays_.empty()) rays_ = sampleRays(exact_, table);
         const bool flat = table.integral == Integral::ScaleInvariant;
@@ -163,22 +176,22 @@ private:
         }
         placeTexels(kinks_, table);
         double error = lookUpError(exact_, table, rays_);
-        while (error > options_.wantedError && grow(table, error)) {
+        while (error > options_.wantedError && grow(table, error, mostTexels)) {
         }
         return error;
     }
 
     /// Doubles size or slices, whichever helps more, or both when neither helps alone; false when nothing does. Twice the texels
     /// should quarter the error; an axis that does not even gain a tenth is not what the error comes from.
-    bool grow(PreintegrationTable& table, double& error) const {
+    bool grow(PreintegrationTable& table, double& error, std::size_t mostTexels) const {
         constexpr double leastGain = 0.9;
         const bool growSize = options_.size <= 0;
         const bool growSlices = table.integral == Integral::Standard && options_.lengthSlices <= 0;
         PreintegrationTable finer = table, deeper = table, both = table;
-        const double finerError = growSize ? errorOfGrown(finer, 2, 1) : HUGE_VAL;
-        const double deeperError = growSlices && finerError > options_.wantedError ? errorOfGrown(deeper, 1, 2) : HUGE_VAL;
+        const double finerError = growSize ? errorOfGrown(finer, 2, 1, mostTexels) : HUGE_VAL;
+        const double deeperError = growSlices && finerError > options_.wantedError ? errorOfGrown(deeper, 1, 2, mostTexels) : HUGE_VAL;
         const bool oneHelps = std::min(finerError, deeperError) < leastGain * error;
-        const double bothError = !oneHelps && growSize && growSlices ? errorOfGrown(both, 2, 2) : HUGE_VAL;
+        const double bothError = !oneHelps && growSize && growSlices ? errorOfGrown(both, 2, 2, mostTexels) : HUGE_VAL;
         const double best = std::min({finerError, deeperError, bothError});
         if (!(best < leastGain * error)) return false;
         table = best == finerError ? finer : best == deeperError ? deeper : both;
@@ -186,10 +199,10 @@ private:
         return true;
     }
 
-    double errorOfGrown(PreintegrationTable& table, int sizeFactor, int sliceFactor) const {
+    double errorOfGrown(PreintegrationTable& table, int sizeFactor, int sliceFactor, std::size_t mostTexels) const {
         table.size *= sizeFactor;
         table.slices *= sliceFactor;
-        if (!fits(table)) return HUGE_VAL;
+        if (!fits(table) || texelCount(table) > mostTexels) return HUGE_VAL;
         placeTexels(kinks_, table);
         return lookUpError(exact_, table, rays_);
     }

@@ -98,10 +98,10 @@ std::vector<glm::dvec3> extinctionRamps(const ExactIntegral& exact, double low, 
     return ramps;
 }
 
-/// Whether float sums of the ramps keep extinction to some 3e-5 of 1/range, a scene's unit; every ramp costs each look-up.
+/// Whether float sums of the ramps keep extinction to some 1e-4 of 1/range, a scene's unit; every ramp costs each look-up.
 bool rampsAreAccurate(const std::vector<glm::dvec3>& ramps, double range) {
     constexpr std::size_t most = 16;
-    constexpr double largestSum = 500.0;
+    constexpr double largestSum = 2000.0;
     double sum = 0.0;
     for (const glm::dvec3& ramp : ramps) sum += std::abs(ramp.y) + 2.0 * std::abs(ramp.z) * range;
     return ramps.size() <= most && sum * range <= largestSum;

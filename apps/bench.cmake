@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: Apache-2.0
+# `tetralux bench`, the program that draws VTK's rows for it, and the kernels' benchmark.
+option(TETRALUX_BENCH_VTK "Build tetralux-bench-vtk, which draws VTK's rows of `tetralux bench`" ON)
+
+add_library(tetralux_bench STATIC
+  bench_engine.cpp
+  bench_machine.cpp
+  bench_memory.cpp
+  bench_output.cpp
+  bench_row.cpp
+  bench_run.cpp
+  bench_scene.cpp
+  bench_statistics.cpp
+  bench_vtk_rows.cpp
+  plot.cpp
+  plot_png.cpp
+  plot_svg.cpp
+  run_program.cpp
+)
+target_compile_definitions(tetralux_bench PRIVATE TETRALUX_VERSION="${PROJECT_VERSION}")
+target_link_libraries(tetralux_bench PUBLIC tetralux_projection nlohmann_json::nlohmann_json PRIVATE fmt::fmt TBB::tbb)
+
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(CAIRO QUIET IMPORTED_TARGET cairo)
+if(CAIRO_FOUND)
+  target_link_libraries(tetralux_bench PRIVATE PkgConfig::CAIRO)
+  target_compile_definitions(tetralux_bench PRIVATE TETRALUX_HAS_CAIRO)
+else()
+  message(STATUS "cairo was not found: `tetralux bench --plot` writes SVG only")
+endif()
+
+target_sources(tetralux PRIVATE bench.cpp bench_options.cpp)
+target_link_libraries(tetralux PRIVATE tetralux_bench)
+
+if(TETRALUX_BENCH_VTK)
+  add_subdirectory(bench_vtk)
+endif()

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <apps/bench_engine.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <map>
+#include <memory>
+#include <optional>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <apps/bench_memory.h>
+#include <apps/bench_scene.h>
+#include <apps/bench_statistics.h>
+
+namespace tetralux::apps {
+
+namespace {
+
+using projection::Engine;
+using projection::FrameReport;
+using projection::Image;
+
+class Stopwatch {
+public:
+    double milliseconds() const {
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Errors of libraries are one line, but not everybody's.
+std::string oneLine(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+void describeEngine(const Engine& engine, double prepareMilliseconds, BenchRow& row) {
+    row.renderer = engine.renderer();
+    row.prepareMilliseconds = engine.prepareMilliseconds();
+    row.prepareTotalMilliseconds = prepareMilliseconds;
+    if (const preint::PreintegrationTable* table = engine.table()) {
+        row.tableSize = table->size;
+        row.tableSlices = table->slices;
+        row.tableError = table->measuredError;
+        row.tableMilliseconds = table->buildMilliseconds;
+    }
+}
+
+void describeFirstFrame(const FrameReport& report, BenchRow& row) {
+    row.cellsDrawn = report.cellsDrawn;
+    row.cellsSkipped = report.cellsSkipped;
+    row.cellsSorted = report.cellsSorted;
+    row.fragments = report.fragments;
+    row.orderMethod = report.orderMethod;
+}
+
+/// Medians by stage; a frame without a stage has spent nothing on it.
+std::map<std::string, double> stageMedians(const std::vector<FrameReport>& reports) {
+    std::map<std::string, std::vector<double>> byStage;
+    for (const FrameReport& report : reports)
+        for (const auto& [stage, milliseconds] : report.stageMilliseconds) byStage[stage].push_back(milliseconds);
+    std::map<std::string, double> medians;
+    for (auto& [stage, values] : byStage) {
+        values.resize(reports.size());
+        medians[stage] = median(values);
+    }
+    return medians;
+}
+
+/// Warm-up and timed frames of one size. Comparing is not on the clock.
+void drawFrames(Engine& engine, const projection::Scene& scene, const ReferenceImages& reference, const FramePlan& plan,
+                BenchRow& row) {
+    const glm::ivec2 size(row.subject.width, row.subject.height);
+    std::vector<FrameReport> reports;
+    double spent = 0.0;
+    const auto draw = [&](int frame) {
+        FrameReport report;
+        const projection::Camera camera = benchCamera(scene.mesh->bounds, size, frame);
+        const Stopwatch watch;
+        Image image = engine.render(camera, report);
+        const double milliseconds = watch.milliseconds();
+        spent += milliseconds;
+        return std::tuple(std::move(image), std::move(report), milliseconds);
+    };
+    draw(-1);
+    for (int frame = 0; frame < plan.frames; ++frame) {
+        if (frame > 0 && spent > 1000.0 * plan.budgetSeconds) break;
+        auto [image, report, milliseconds] = draw(frame);
+        row.frameMilliseconds.push_back(milliseconds);
+        row.pixelsRepaired += report.pixelsRepaired;
+        if (static_cast<std::size_t>(frame) < reference.images.size())
+            judgeFrame(row, reference, static_cast<std::size_t>(frame), image);
+        reports.push_back(std::move(report));
+    }
+    describeFirstFrame(reports.front(), row);
+    row.stageMilliseconds = stageMedians(reports);
+}
+
+projection::Scene withChoice(projection::Scene scene, const EngineChoice& choice) {
+    scene.settings.threads = choice.threads;
+    scene.settings.table.threads = choice.threads;
+    scene.settings.table.size = choice.tableSize;
+    return scene;
+}
+
+std::vector<BenchRow> emptyRows(const EngineChoice& choice, const std::vector<BenchSubject>& subjects) {
+    std::vector<BenchRow> rows;
+    for (const BenchSubject& subject : subjects) {
+        BenchRow& row = rows.emplace_back();
+        row.subject = subject;
+        row.engine = choice.name();
+        row.setting = choice.setting();
+    }
+    return rows;
+}
+
+}  // namespace
+
+std::string EngineChoice::name() const {
+    return options.context == "auto" ? options.engine : fmt::format("{}:{}", options.engine, options.context);
+}
+
+std::string EngineChoice::setting() const {
+    std::string text;
+    if (tableSize > 0) text = fmt::format("table {}", tableSize);
+    if (threads > 0) text += fmt::format("{}{} thread{}", text.empty() ? "" : ", ", threads, threads == 1 ? "" : "s");
+    return text;
+}
+
+void judgeFrame(BenchRow& row, const ReferenceImages& reference, std::size_t frame, const Image& image) {
+    const projection::ImageDifference difference = projection::compareImages(image, reference.images[frame]);
+    row.error.rmse = std::max(row.error.rmse, difference.rmse);
+    row.error.max = std::max(row.error.max, difference.max);
+    row.error.percentile999 = std::max(row.error.percentile999, difference.percentile999);
+    row.error.psnr = row.judged ? std::min(row.error.psnr, difference.psnr) : difference.psnr;
+    row.judged = true;
+}
+
+ReferenceImages judge(const projection::Scene& scene, const BenchSubject& subject, const FramePlan& plan) {
+    ReferenceImages result;
+    result.row.subject = subject;
+    result.row.engine = "reference";
+    const std::uint64_t before = trimmedMemoryBytes();
+    restartPeakMemory();
+    const Stopwatch preparing;
+    const auto engine = projection::makeEngine(scene, {.engine = "reference"});
+    describeEngine(*engine, preparing.milliseconds(), result.row);
+    std::vector<FrameReport> reports;
+    for (int frame = 0; frame < plan.judged; ++frame) {
+        const Stopwatch watch;
+        result.images.push_back(engine->render(benchCamera(scene.mesh->bounds, {subject.width, subject.height}, frame),
+                                               reports.emplace_back()));
+        result.row.frameMilliseconds.push_back(watch.milliseconds());
+    }
+    describeFirstFrame(reports.front(), result.row);
+    result.row.stageMilliseconds = stageMedians(reports);
+    result.row.peakMemoryBytes = peakMemoryBytes();
+    result.row.memoryOverMeshBytes = result.row.peakMemoryBytes - std::min(before, result.row.peakMemoryBytes);
+    result.row.judged = true;
+    return result;
+}
+
+std::vector<BenchRow> measureEngine(const projection::Scene& scene, const EngineChoice& choice,
+                                    const std::vector<BenchSubject>& subjects,
+                                    const std::vector<ReferenceImages>& references, const FramePlan& plan) {
+    std::vector<BenchRow> rows = emptyRows(choice, subjects);
+    std::optional<tbb::global_control> threadLimit;
+    if (choice.threads > 0)
+        threadLimit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(choice.threads));
+    const std::uint64_t before = trimmedMemoryBytes();
+    restartPeakMemory();
+    std::unique_ptr<Engine> engine;
+    std::size_t done = 0;
+    try {
+        const Stopwatch preparing;
+        engine = projection::makeEngine(withChoice(scene, choice), choice.options);
+        const double prepareMilliseconds = preparing.milliseconds();
+        const std::uint64_t preparePeak = peakMemoryBytes();
+        for (; done < rows.size(); ++done) {
+            BenchRow& row = rows[done];
+            describeEngine(*engine, prepareMilliseconds, row);
+            drawFrames(*engine, scene, references[done], plan, row);
+            row.peakMemoryBytes = std::max(preparePeak, peakMemoryBytes());
+            row.memoryOverMeshBytes = row.peakMemoryBytes - std::min(before, row.peakMemoryBytes);
+            restartPeakMemory();
+        }
+    } catch (const std::exception& error) {
+        for (; done < rows.size(); ++done) rows[done].failure = oneLine(error.what());
+    }
+    return rows;
+}
+
+}  // namespace tetralux::apps

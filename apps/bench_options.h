@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// What `tetralux bench` is asked for.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include <apps/bench_run.h>
+#include <projection/scene.h>
+
+namespace CLI {
+class App;
+}
+
+namespace tetralux::apps {
+
+struct BenchOptions {
+    std::vector<std::string> scenes{"bucky"};
+    std::vector<std::uint64_t> cells{150'000, 1'250'000};
+    std::vector<glm::ivec2> sizes{{512, 512}};
+    std::vector<std::string> transferFunctions{"smooth", "peaks", "opaque", "constant"};
+    std::vector<projection::Mode> modes{projection::Mode::Standard};
+    std::vector<std::string> engines;  ///< names as in rows; empty: all there are
+    std::vector<int> tableSizes{0};
+    std::vector<int> threads{0};
+    FramePlan plan;
+    std::string csv, json;
+    std::vector<std::string> plots;
+    bool quick = false;
+    bool quiet = false;
+};
+
+/// Adds bench's options to `command`; parsing fills `options`.
+void addBenchOptions(CLI::App& command, BenchOptions& options);
+
+/// What --quick sets where the command line says nothing else: a tiny scene, all frames judged.
+void makeQuick(const CLI::App& command, BenchOptions& options);
+
+/// What the options ask for. \throws std::runtime_error naming the option and listing the names there are.
+BenchPlan benchPlan(const BenchOptions& options);
+
+}  // namespace tetralux::apps

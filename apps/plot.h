@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// Scatter plots of error against time on logarithmic axes, one panel beside the other, as SVG or PNG.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tetralux::apps {
+
+struct PlotPoint {
+    double x = 0.0, y = 0.0;  ///< y = 0 (no error at all) is drawn on the lower edge
+    int series = 0;
+    bool onFront = false;
+    std::string note;  ///< SVG shows it when the pointer rests on the point
+};
+
+struct PlotPanel {
+    std::string title;
+    std::vector<PlotPoint> points;
+};
+
+struct Plot {
+    std::string title, xLabel, yLabel;
+    std::vector<std::string> series;
+    std::vector<PlotPanel> panels;  ///< row by row
+    int columns = 1;
+};
+
+/// The endings that writePlot takes: ".svg" and, where the build has cairo, ".png".
+std::vector<std::string> plotEndings();
+
+/// \throws std::runtime_error when the ending of `path` is none of plotEndings().
+void checkPlotPath(const std::string& path);
+
+/// The file appears whole or not at all. \throws std::runtime_error
+void writePlot(const Plot& plot, const std::string& path);
+
+/// The text of the SVG.
+std::string plotAsSvg(const Plot& plot);
+
+/// Whole powers of ten that enclose all positive values, a decade at least: the exponents.
+struct Decades {
+    int low = 0, high = 1;
+};
+Decades enclosingDecades(const std::vector<double>& values);
+
+}  // namespace tetralux::apps

@@ -13,6 +13,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <projection/cell_setup.h>
+#include <projection/edge_side.h>
 
 namespace tetralux::projection {
 
@@ -196,8 +197,8 @@ private:
         int positive = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const auto a = (k + 1) % 3, b = (k + 2) % 3;
-            w[k] = q[a].x * q[b].y - q[a].y * q[b].x;
-            positive += w[k] > 0 || (w[k] == 0 && p[a] < p[b]) ? 1 : 0;
+            w[k] = edgeSide(q[a], q[b]);
+            positive += passesPositive(q[a], q[b], p[a], p[b]) ? 1 : 0;
         }
         const double sum = w[0] + w[1] + w[2];
         if ((positive != 0 && positive != 3) || sum == 0) return;

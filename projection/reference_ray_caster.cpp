@@ -16,6 +16,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include <projection/cell_shading.h>
+#include <projection/edge_side.h>
 
 namespace tetralux::projection {
 
@@ -27,7 +28,8 @@ constexpr double rayShiftX = 0x1p-32, rayShiftY = 0x1p-33;
 
 /// A point of the mesh seen along a ray: offset across the ray (two axes) and distance along it.
 struct RayPoint {
-    double x, y, t;
+    glm::dvec2 across;
+    double t;
 };
 
 /// Two axes across the ray.
@@ -45,16 +47,9 @@ struct RayFrame {
 
     RayPoint see(const glm::dvec3& point) const {
         const glm::dvec3 p = point - origin;
-        return {glm::dot(p, across), glm::dot(p, other), glm::dot(p, direction)};
+        return {{glm::dot(p, across), glm::dot(p, other)}, glm::dot(p, direction)};
     }
 };
-
-/// Which side of the ray the edge a → b passes, times twice the area with the ray's foot. Swapping a and b flips the sign
-/// exactly, so that all cells around an edge agree on the side (Platis & Theoharis 2003).
-double edgeSide(const RayPoint& a, const RayPoint& b) { return a.x * b.y - a.y * b.x; }
-
-/// A zero side counts as positive in the order of the point numbers: one answer for all cells at the edge.
-bool sideIsPositive(double side, mesh::PointIndex a, mesh::PointIndex b) { return side > 0 || (side == 0 && a < b); }
 
 /// Where the ray passes a face.
 struct Crossing {
@@ -81,10 +76,11 @@ std::optional<Crossing> crossFace(const std::array<RayPoint, 4>& v, const mesh::
 
     const auto [a, b, c] = std::array{static_cast<std::size_t>(corners[0]), static_cast<std::size_t>(corners[1]),
                                       static_cast<std::size_t>(corners[2])};
-    const double wa = edgeSide(v[b], v[c]), wb = edgeSide(v[c], v[a]), wc = edgeSide(v[a], v[b]);
-    const bool positive = sideIsPositive(wa, points[b], points[c]);
-    if (positive != sideIsPositive(wb, points[c], points[a]) || positive != sideIsPositive(wc, points[a], points[b]))
+    const glm::dvec2 &qa = v[a].across, &qb = v[b].across, &qc = v[c].across;
+    const bool positive = passesPositive(qb, qc, points[b], points[c]);
+    if (positive != passesPositive(qc, qa, points[c], points[a]) || positive != passesPositive(qa, qb, points[a], points[b]))
         return std::nullopt;
+    const double wa = edgeSide(qb, qc), wb = edgeSide(qc, qa), wc = edgeSide(qa, qb);
     const double sum = wa + wb + wc;
     if (sum == 0) return std::nullopt;  // the face is a line to this ray
 

@@ -92,6 +92,17 @@ TEST(CellSetup, RecordsAgreeWithTheReference) {
     }
 }
 
+TEST(CellSetup, EyeOnAVertexAnEdgeAFaceOfTheMesh) {
+    const Scene scene = sceneOf(boxMesh(5, wave), constantFunction(1));
+    for (const glm::dvec3& eye : {glm::dvec3(0.25, 0.5, 0.5), glm::dvec3(0.3, 0.5, 0.5), glm::dvec3(0.3, 0.55, 0.5),
+                                  glm::dvec3(0, 0, 0), glm::dvec3(0.5, 0.5, 1)}) {
+        const Worst worst = compare(scene, cameraAt(eye, eye == glm::dvec3(0) ? glm::dvec3(0.5) : glm::dvec3(1, 0.6, 0.5)), 3);
+        EXPECT_GT(worst.compared, 300);
+        EXPECT_LT(worst.length, 2e-6) << eye.x << ' ' << eye.y << ' ' << eye.z;
+        EXPECT_LT(worst.scalar, 2e-6) << eye.x << ' ' << eye.y << ' ' << eye.z;
+    }
+}
+
 TEST(CellSetup, OrthographicRecordsAgreeWithTheReference) {
     const Scene scene = sceneOf(jitteredBoxMesh(5, 0.2, 3, wave), constantFunction(1));
     for (double distance : {2.0, 0.1}) {  // 0.1: the eye's plane cuts the mesh

@@ -52,6 +52,11 @@ ExactIntegral::ExactIntegral(const TransferFunction& function) : function_(funct
     if (!ascending(function_.color) || !ascending(function_.extinction)) {
         throw std::runtime_error("transfer function nodes are not in ascending order; sort them by scalar");
     }
+    const auto usable = [](const ExtinctionNode& node) { return std::isfinite(node.scalar) && node.extinction >= 0.0; };
+    if (!std::all_of(function_.extinction.begin(), function_.extinction.end(), usable) ||
+        !std::all_of(function_.color.begin(), function_.color.end(), [](const ColorNode& node) { return std::isfinite(node.scalar); })) {
+        throw std::runtime_error("transfer function has a node that is not finite or of negative extinction; mend that node");
+    }
     if (function_.extinction.empty()) function_.extinction.push_back({function_.color.front().scalar, 0.0});
     std::stable_sort(function_.isosurfaces.begin(), function_.isosurfaces.end(),
                      [](const Isosurface& a, const Isosurface& b) { return a.value < b.value; });

@@ -75,16 +75,17 @@ TETRALUX_GLSL_FUNCTION real lengthOfFraction(real fraction, real lengthMax, real
 
 #if TETRALUX_RAMPS
 // Mean of extinction between two scalars, (Θ(back) − Θ(front))/(back − front), without a difference of integrals: a ramp that begins at
-// s_k covers `share` of the way and rises there from its jump evenly to both ends' heights.
+// s_k covers `share` of the way (exactly 1 or 0 for most) and rises there evenly from its jump to the sum of both ends' heights.
 TETRALUX_GLSL_FUNCTION real meanExtinctionOf(real front, real back) {
-    real way = back - front;
-    real perWay = real(1.0) / select(way == real(0.0), real(1.0), way);
-    real sum = tableRamp[0].y + tableRamp[0].z * ((front - tableRamp[0].x) + (back - tableRamp[0].x));  // begins where the range does
+    real low = min(front, back);
+    real high = max(front, back);
+    real perWay = real(1.0) / max(high - low, real(1e-30));
+    real sum = tableRamp[0].y + tableRamp[0].z * ((low - tableRamp[0].x) + (high - tableRamp[0].x));  // begins where the range does
     for (int k = 1; k < TETRALUX_RAMP_COUNT; ++k) {
-        real beyondFront = max(front - tableRamp[k].x, real(0.0));
-        real beyondBack = max(back - tableRamp[k].x, real(0.0));
-        real share = select(way == real(0.0), select(front < tableRamp[k].x, real(0.0), real(1.0)), (beyondBack - beyondFront) * perWay);
-        sum += share * (tableRamp[k].y + tableRamp[k].z * (beyondFront + beyondBack));
+        real beyondLow = max(low - tableRamp[k].x, real(0.0));
+        real beyondHigh = max(high - tableRamp[k].x, real(0.0));
+        real share = select(low >= tableRamp[k].x, real(1.0), min(beyondHigh * perWay, real(1.0)));
+        sum += share * (tableRamp[k].y + tableRamp[k].z * (beyondLow + beyondHigh));
     }
     return max(sum, real(0.0));
 }

@@ -156,16 +156,18 @@ TransferFunction resolved(const TransferFunction& function, double scalarMin, do
     TransferFunction absolute = function;
     absolute.normalized = false;
     absolute.extinctionPerExtent = false;
+    constexpr double largest = 1e300;  // finite, however large the fractions and small the extent
     if (function.normalized) {
         // A constant field has no range: it shows as the middle of one.
         const double half = scalarMax > scalarMin ? 0.0 : 0.5 * std::max(1.0, std::abs(scalarMin));
         const double low = scalarMin - half, high = scalarMax + half;
-        for (ColorNode& node : absolute.color) node.scalar = std::lerp(low, high, node.scalar);
-        for (ExtinctionNode& node : absolute.extinction) node.scalar = std::lerp(low, high, node.scalar);
-        for (Isosurface& surface : absolute.isosurfaces) surface.value = std::lerp(low, high, surface.value);
+        const auto scalarOf = [&](double fraction) { return std::clamp(std::lerp(low, high, fraction), -largest, largest); };
+        for (ColorNode& node : absolute.color) node.scalar = scalarOf(node.scalar);
+        for (ExtinctionNode& node : absolute.extinction) node.scalar = scalarOf(node.scalar);
+        for (Isosurface& surface : absolute.isosurfaces) surface.value = scalarOf(surface.value);
     }
     if (function.extinctionPerExtent && extent > 0.0) {
-        for (ExtinctionNode& node : absolute.extinction) node.extinction /= extent;
+        for (ExtinctionNode& node : absolute.extinction) node.extinction = std::min(node.extinction / extent, largest);
     }
     return absolute;
 }

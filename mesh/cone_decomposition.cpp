@@ -167,6 +167,7 @@ CellVerdict coneDecomposition(const Points& points, std::vector<Triangle>& surfa
     }
     const CellVerdict whole = inward && expectOutward ? CellVerdict::Inverted : CellVerdict::Good;
     const std::vector<std::uint32_t>& ids = uniquePoints(surface);
+    const std::size_t before = out.cells.size();
     for (const std::uint32_t apex : ids) {
         if (seesSurface(points, surface, apex)) {
             for (const Triangle& t : surface) {
@@ -174,10 +175,9 @@ CellVerdict coneDecomposition(const Points& points, std::vector<Triangle>& surfa
                     out.cells.push_back({t[0], t[2], t[1], apex});
                 }
             }
-            return whole;
+            return out.cells.size() > before ? whole : CellVerdict::Flat;
         }
     }
-    const std::size_t before = out.cells.size();
     const std::size_t folded = coneAboutCentre(points, surface, ids, out);
     if (out.cells.size() == before) {
         return CellVerdict::Flat;

@@ -41,4 +41,15 @@ void checkReadable(const std::string& source) {
     }
 }
 
+void checkBeginning(const std::string& source, std::initializer_list<std::string_view> beginnings, const char* what) {
+    checkReadable(source);
+    std::string head(32, '\0');
+    std::ifstream in(source, std::ios::binary);
+    in.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(in.gcount()));
+    if (std::none_of(beginnings.begin(), beginnings.end(), [&](std::string_view b) { return head.starts_with(b); })) {
+        throw std::runtime_error(fmt::format("{}: does not begin as {} does; check the name's ending or write the file again", source, what));
+    }
+}
+
 }  // namespace tetralux::mesh

@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 #include <string>
+#include <string_view>
 
 namespace tetralux::mesh {
 
@@ -11,5 +12,9 @@ bool hasExtension(const std::string& source, std::initializer_list<const char*> 
 
 /// \throws std::runtime_error naming `source` if it does not exist, is a directory, is empty or may not be read.
 void checkReadable(const std::string& source);
+
+/// \throws std::runtime_error as `checkReadable` does, or if the file begins with none of `beginnings`; `what` names the format.
+/// Readers that take long over anything else are spared it.
+void checkBeginning(const std::string& source, std::initializer_list<std::string_view> beginnings, const char* what);
 
 }  // namespace tetralux::mesh

@@ -13,7 +13,7 @@ namespace {
 bool acceptsCgns(const std::string& source) { return hasExtension(source, {".cgns"}); }
 
 CellSoup readCgns(const std::string& source, const ReadOptions& options) {
-    checkReadable(source);
+    checkBeginning(source, {"@(#)ADF", "\xc0\xa8\xa3\xa9" "ADF", "\x89HDF"}, "a CGNS file (ADF or HDF5)");
     return readIsolated(source, [&] {
         captureVtkMessages();
         vtkNew<vtkCGNSReader> reader;

@@ -15,7 +15,7 @@ bool acceptsExodus(const std::string& source) {
 }
 
 CellSoup readExodus(const std::string& source, const ReadOptions& options) {
-    checkReadable(source);
+    checkBeginning(source, {"CDF\x01", "CDF\x02", "CDF\x05", "\x89HDF"}, "an Exodus file (NetCDF)");
     return readIsolated(source, [&] {
         captureVtkMessages();
         vtkNew<vtkExodusIIReader> reader;

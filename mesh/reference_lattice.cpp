@@ -122,17 +122,21 @@ void cutWedge(Builder& build, int n) {
 }
 
 void cutPyramid(Builder& build, int n) {
-    const auto square = [&](int i, int j, int k, int apex) {
+    const auto upright = [&](int i, int j, int k) {
         build.cell(cell_type::pyramid, {build.point(i, j, k), build.point(i + 1, j, k), build.point(i + 1, j + 1, k),
-                                        build.point(i, j + 1, k), apex});
+                                        build.point(i, j + 1, k), build.point(i, j, k + 1)});
+    };
+    const auto inverted = [&](int i, int j, int k) {
+        build.cell(cell_type::pyramid, {build.point(i, j, k), build.point(i, j + 1, k), build.point(i + 1, j + 1, k),
+                                        build.point(i + 1, j, k), build.point(i + 1, j + 1, k - 1)});
     };
     for (int k = 0; k < n; ++k) {
         const int side = n - k;
         for (int j = 0; j < side; ++j) {
             for (int i = 0; i < side; ++i) {
-                square(i, j, k, build.point(i, j, k + 1));
+                upright(i, j, k);
                 if (i + 1 < side && j + 1 < side) {
-                    square(i, j, k + 1, build.point(i + 1, j + 1, k));
+                    inverted(i, j, k + 1);
                 }
                 // Between two upright neighbours lies a tetrahedron: their common edge and the edge of their tips.
                 if (i + 1 < side) {

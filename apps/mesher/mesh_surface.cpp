@@ -92,11 +92,25 @@ Assembly fill(const TriangleSurface& surface, double volume, const Options& opti
     throw std::runtime_error(problem);
 }
 
+/// What values are looked up on when mending has made new points: the surface as it came, without what has no place.
+TriangleSurface finitePart(TriangleSurface surface) {
+    const auto isFinite = [&](std::uint32_t i) {
+        return std::isfinite(surface.points[i].x) && std::isfinite(surface.points[i].y) && std::isfinite(surface.points[i].z);
+    };
+    std::erase_if(surface.triangles, [&](const Triangle& t) { return !isFinite(t[0]) || !isFinite(t[1]) || !isFinite(t[2]); });
+    if (surface.triangles.empty()) return {};
+    const glm::dvec3 somewhere = surface.points[surface.triangles[0][0]];
+    for (std::uint32_t i = 0; i < surface.points.size(); ++i)
+        if (!isFinite(i)) surface.points[i] = somewhere;
+    return surface;
+}
+
 }  // namespace
 
 mesh::TetMesh meshSurface(TriangleSurface&& surface, const Options& options, const Deadline& deadline, const Listener& listener,
                           nlohmann::json& report) {
-    const std::optional<TriangleSurface> original = options.repair && !surface.fields.empty() ? std::optional(surface) : std::nullopt;
+    std::optional<TriangleSurface> original;
+    if (options.repair && !surface.fields.empty()) original = finitePart(surface);
     bool repaired = false;
     checkAndRepair(surface, options, listener, report, repaired);
     const double volume = enclosedVolume(surface);

@@ -34,6 +34,18 @@ mesh::TetMesh meshSoup(PolygonSoup&& soup, const Options& options, const Deadlin
     }
 }
 
+/// A mesh that was read as cells, with what reading found said aloud.
+mesh::TetMesh cellsOf(mesh::ReadResult&& read, const Listener& listener, nlohmann::json& report) {
+    std::string types;
+    for (const auto& [type, count] : read.report.cellTypes) types += fmt::format("{}{} {}", types.empty() ? "" : ", ", count, type);
+    if (!types.empty()) listener.note("cells read: " + types);
+    for (const auto& [defect, found] : read.report.defects) {
+        listener.note(fmt::format("found: {} {}", found.count, mesh::defectName(defect)));
+        report["defects"].push_back(fmt::format("{} {}", found.count, mesh::defectName(defect)));
+    }
+    return std::move(read.mesh);
+}
+
 void addFields(mesh::TetMesh& mesh, const Options& options, const Listener& listener) {
     for (const std::string& field : options.fields) {
         listener.stage("computing " + field);
@@ -53,7 +65,12 @@ void coarsen(mesh::TetMesh& mesh, const Options& options, const Deadline& deadli
     bounds.maxFieldError = options.maxFieldError.value_or(std::numeric_limits<double>::infinity());
     bounds.surfaceTolerance = options.surfaceTolerance;
     bounds.deadline = deadline;
-    const SimplifyReport done = simplify(mesh, bounds);
+    SimplifyReport done;
+    try {
+        done = simplify(mesh, bounds);
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(fmt::format("{}: {}", options.input, error.what()));
+    }
     listener.note(fmt::format("coarsened from {} to {} tetrahedra; largest error {:.3g} of the field's range (rms {:.3g}) at the points "
                               "of the fine mesh; surface moved by {:.3g}",
                               done.cellsBefore, mesh.cells.size(), done.maxError, done.rmsError, done.surfaceDeviation));
@@ -93,8 +110,8 @@ nlohmann::json makeMesh(const Options& options, const std::string& temporary, co
     report["input"] = options.input;
     listener.stage("reading");
     Input input = readInput(options.input);
-    mesh::TetMesh mesh = std::holds_alternative<mesh::TetMesh>(input)
-                             ? std::get<mesh::TetMesh>(std::move(input))
+    mesh::TetMesh mesh = std::holds_alternative<mesh::ReadResult>(input)
+                             ? cellsOf(std::get<mesh::ReadResult>(std::move(input)), listener, report)
                              : meshSoup(std::get<PolygonSoup>(std::move(input)), options, deadline, listener, report);
     addFields(mesh, options, listener);
     coarsen(mesh, options, deadline, listener, report);

@@ -6,8 +6,6 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include <mesh/read_mesh.h>
-
 #include "file_name.h"
 #include "polydata_vtk.h"
 #include "read_points_text.h"
@@ -31,11 +29,11 @@ PolygonSoup readSurfaceFile(const std::string& path) {
 Input readInput(const std::string& source) {
     const std::string ending = lowerEnding(source);
     std::error_code ignored;
-    if (std::filesystem::is_directory(source, ignored)) return mesh::readMesh(source).mesh;
+    if (std::filesystem::is_directory(source, ignored)) return mesh::readMesh(source);
     if (ending == ".csv" || ending == ".xyz" || ending == ".txt") return readPointsText(source);
     if (ending == ".stl" || ending == ".off" || ending == ".obj" || ending == ".ply") return readSurfaceFile(source);
     if (ending == ".vtp" || (ending == ".vtk" && isLegacyPolyData(source))) return readPolyData(source);
-    return mesh::readMesh(source).mesh;
+    return mesh::readMesh(source);
 }
 
 }  // namespace tetralux::mesher

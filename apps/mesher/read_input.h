@@ -4,14 +4,14 @@
 #include <string>
 #include <variant>
 
-#include <mesh/tet_mesh.h>
+#include <mesh/read_mesh.h>
 
 #include "geometry.h"
 
 namespace tetralux::mesher {
 
 /// A surface or points, or cells that are already (or have been made) tetrahedra.
-using Input = std::variant<PolygonSoup, mesh::TetMesh>;
+using Input = std::variant<PolygonSoup, mesh::ReadResult>;
 
 /// Reads `source` by the ending of its name. \throws std::runtime_error with one line that begins with `source`.
 Input readInput(const std::string& source);

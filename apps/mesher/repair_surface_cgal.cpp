@@ -42,8 +42,11 @@ void mergePoints(Soup& soup, std::vector<std::string>& done) {
     PMP::remove_isolated_points_in_polygon_soup(soup.points, soup.triangles);
     say(done, PMP::merge_duplicate_points_in_polygon_soup(soup.points, soup.triangles), "coincident point merged",
         "coincident points merged");
+    // Not repair_polygon_soup, which wants to shorten polygons: ours have three corners by type.
     const std::size_t before = soup.triangles.size();
-    PMP::repair_polygon_soup(soup.points, soup.triangles);
+    std::erase_if(soup.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+    PMP::merge_duplicate_polygons_in_polygon_soup(soup.points, soup.triangles);
+    PMP::remove_isolated_points_in_polygon_soup(soup.points, soup.triangles);
     say(done, before - soup.triangles.size(), "collapsed or double triangle dropped", "collapsed or double triangles dropped");
 }
 

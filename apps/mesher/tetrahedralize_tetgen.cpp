@@ -57,6 +57,7 @@ std::string reason(const ChildOutcome& outcome) {
         case 3: return "TetGen found that the surface intersects itself";
         case 4: return "TetGen met a feature too small for it; remove tiny edges and slits";
         case 5: return "TetGen met two facets that lie too close to each other; move or merge them";
+        case 10: return "TetGen refused the points: they lie in a plane, or some coordinates are far off the others";
         default: return fmt::format("TetGen gave up (code {})", outcome.code);
     }
 }

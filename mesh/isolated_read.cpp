@@ -63,7 +63,7 @@ void limitChild() {
     const rlimit noCore{0, 0};
     setrlimit(RLIMIT_CORE, &noCore);
     const rlim_t physical = static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(sysconf(_SC_PAGE_SIZE));
-    const rlimit memory{physical, physical};
+    const rlimit memory{physical / 4 * 3, physical / 4 * 3};
     if (canLimitMemory) {
         setrlimit(RLIMIT_DATA, &memory);
     }
@@ -115,7 +115,7 @@ bool waitForEnd(int pipe, std::chrono::seconds limit) {
 std::chrono::seconds timeLimit(const std::string& source) {
     std::error_code failed;
     const auto size = std::filesystem::file_size(source, failed);
-    return std::chrono::seconds(20 + (failed ? 0 : static_cast<long long>(size >> 20)));
+    return std::chrono::seconds(10 + (failed ? 0 : static_cast<long long>(size >> 20)));
 }
 
 int reap(pid_t child) {

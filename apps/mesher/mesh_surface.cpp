@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -97,7 +98,11 @@ TriangleSurface finitePart(TriangleSurface surface) {
     const auto isFinite = [&](std::uint32_t i) {
         return std::isfinite(surface.points[i].x) && std::isfinite(surface.points[i].y) && std::isfinite(surface.points[i].z);
     };
-    std::erase_if(surface.triangles, [&](const Triangle& t) { return !isFinite(t[0]) || !isFinite(t[1]) || !isFinite(t[2]); });
+    std::erase_if(surface.triangles, [&](const Triangle& t) {
+        if (!isFinite(t[0]) || !isFinite(t[1]) || !isFinite(t[2])) return true;
+        const glm::dvec3 a = surface.points[t[0]], n = glm::cross(surface.points[t[1]] - a, surface.points[t[2]] - a);
+        return !(glm::dot(n, n) > 0.0);
+    });
     if (surface.triangles.empty()) return {};
     const glm::dvec3 somewhere = surface.points[surface.triangles[0][0]];
     for (std::uint32_t i = 0; i < surface.points.size(); ++i)

@@ -132,21 +132,44 @@ void fillStandard(const ExactIntegral& exact, PreintegrationTable& table) {
     });
 }
 
+/// The first size from the table's own to a quarter more at which every kink falls on a texel centre of evenly laid texels; the table's own
+/// when there is none.
+int sizeMeeting(const ZoneKinks& kinks, const PreintegrationTable& table) {
+    constexpr double near = 0.01;  // texels
+    const auto meets = [&](int size) {
+        for (std::size_t z = 0; z < kinks.size(); ++z) {
+            const glm::dvec2& zone = table.zones[z];
+            for (const double kink : kinks[z]) {
+                const double texel = (kink - zone.x) / (zone.y - zone.x) * (size - 1);
+                if (std::abs(texel - std::round(texel)) > near) return false;
+            }
+        }
+        return true;
+    };
+    for (int size = table.size; size <= table.size + table.size / 4; ++size) {
+        if (meets(size)) return size;
+    }
+    return table.size;
+}
+
 /// The smallest table that keeps a wanted error.
 class SizeChooser {
 public:
     SizeChooser(const ExactIntegral& exact, const TableOptions& options, double scalarMin, double scalarMax)
         : exact_(exact), options_(options), scalarMin_(scalarMin), scalarMax_(scalarMax) {}
 
-    /// Lays `table` out: the first of three ways that keeps the error, or the one that comes closest. Without cuts at kinks look-up
+    /// Lays `table` out: the first of several ways that keeps the error, or the one that comes closest. Without cuts at kinks look-up
     /// does least, but the table must be large; with them it is small, and look-up is hardly slower (a few per cent of a frame
     /// on llvmpipe).
     void choose(PreintegrationTable& table) {
-        const std::pair<KinkCuts, std::size_t> ways[] = {
-            {KinkCuts::None, quickTexels}, {KinkCuts::All, largestTexels}, {KinkCuts::None, largestTexels}};
+        const std::pair<KinkCuts, std::size_t> ways[] = {{KinkCuts::Ignored, options_.evenTexelsFirst ? quickTexels : 0},
+                                                         {KinkCuts::None, quickTexels},
+                                                         {KinkCuts::All, largestTexels},
+                                                         {KinkCuts::None, largestTexels}};
         const PreintegrationTable empty = table;
         double least = HUGE_VAL;
         for (const auto& [cuts, texels] : ways) {
+            if (texels == 0) continue;
             PreintegrationTable candidate = empty;
             const double error = grown(candidate, cuts, texels);
             if (error < least) {
@@ -164,6 +187,7 @@ private:
     /// The layout with the size that suits it, of at most `mostTexels` unless the options ask for more; returns its error.
     double grown(PreintegrationTable& table, KinkCuts cuts, std::size_t mostTexels) {
         kinks_ = layOutTable(exact_, scalarMin_, scalarMax_, cuts, table);
+        kinksToMeet_ = cuts == KinkCuts::Ignored ? std::exchange(kinks_, ZoneKinks(kinks_.size())) : ZoneKinks();
         if (rays_.empty()) rays_ = sampleRays(exact_, table);
         const bool flat = table.integral == Integral::ScaleInvariant;
         table.size = options_.size > 0 ? options_.size : 32;
@@ -174,6 +198,7 @@ private:
             throw std::runtime_error(fmt::format("table of {} zones of {}×{}×{} texels is too large; ask for a smaller size",
                                                  table.zones.size(), table.size, table.size, table.slices));
         }
+        if (options_.size <= 0) table.size = sizeMeeting(kinksToMeet_, table);
         placeTexels(kinks_, table);
         double error = lookUpError(exact_, table, rays_);
         while (error > options_.wantedError && grow(table, error, mostTexels)) {
@@ -202,6 +227,7 @@ private:
     double errorOfGrown(PreintegrationTable& table, int sizeFactor, int sliceFactor, std::size_t mostTexels) const {
         table.size *= sizeFactor;
         table.slices *= sliceFactor;
+        if (sizeFactor > 1) table.size = sizeMeeting(kinksToMeet_, table);
         if (!fits(table) || texelCount(table) > mostTexels) return HUGE_VAL;
         placeTexels(kinks_, table);
         return lookUpError(exact_, table, rays_);
@@ -211,6 +237,7 @@ private:
     const TableOptions& options_;
     double scalarMin_, scalarMax_;
     ZoneKinks kinks_;
+    ZoneKinks kinksToMeet_;  // of even texels: by luck, with nodes at round fractions, or not at all
     std::vector<SampleRay> rays_;
 };
 

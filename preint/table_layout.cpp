@@ -169,7 +169,7 @@ ZoneKinks layOutTable(const ExactIntegral& exact, double scalarMin, double scala
         inZone[static_cast<std::size_t>(std::upper_bound(cutsAt.begin(), cutsAt.end(), kink) - cutsAt.begin())].push_back(kink);
     }
     table.ramps = extinctionRamps(exact, scalarMin, scalarMax);
-    if (cuts == KinkCuts::All || !rampsAreAccurate(table.ramps, scalarMax - scalarMin)) table.ramps.clear();
+    if (cuts != KinkCuts::None || !rampsAreAccurate(table.ramps, scalarMax - scalarMin)) table.ramps.clear();
     return inZone;
 }
 

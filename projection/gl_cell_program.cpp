@@ -32,6 +32,18 @@ glm::dvec2 shaderZone(const glm::dvec2& range) {
     return {range.x, range.y > range.x ? 1.0 / (range.y - range.x) : 0.0};
 }
 
+// "vec2(…), vec2(…)": the elements of a constant array. Constants beat uniforms by far on llvmpipe, which checks the bounds of every load.
+template <class Vector>
+std::string vectorLiterals(const std::vector<Vector>& vectors) {
+    std::string text;
+    for (const Vector& vector : vectors) {
+        text += fmt::format("{}vec{}(", text.empty() ? "" : ", ", vector.length());
+        for (int i = 0; i < vector.length(); ++i) text += fmt::format("{}{:.9e}", i > 0 ? ", " : "", vector[i]);
+        text += ")";
+    }
+    return text;
+}
+
 GlDefines variant(const RenderSettings& settings, std::size_t supports, const preint::PreintegrationTable* table,
                   bool orthographic, bool linearSampler) {
     const auto& shading = settings.shading;
@@ -56,7 +68,9 @@ GlDefines variant(const RenderSettings& settings, std::size_t supports, const pr
     defines.set("TETRALUX_ZONE_LOW", zone.x);
     defines.set("TETRALUX_ZONE_PER_SCALAR", zone.y);
     defines.set("TETRALUX_WARPS", table->warped ? static_cast<int>(table->warp.size()) : 0);
+    defines.set("TETRALUX_WARP_VALUES", vectorLiterals(table->warp));
     defines.set("TETRALUX_RAMPS", static_cast<int>(table->ramps.size()));
+    defines.set("TETRALUX_RAMP_VALUES", vectorLiterals(table->ramps));
     defines.set("TETRALUX_TABLE_SIZE", static_cast<double>(table->size));
     defines.set("TETRALUX_TABLE_SLICES", static_cast<double>(table->slices));
     defines.set("TETRALUX_TABLE_LENGTH_MAX", table->lengthMax);
@@ -154,10 +168,6 @@ void GlCellProgram::setConstants(const RenderSettings& settings, const std::vect
     for (const glm::dvec2& range : table->zones) zones.emplace_back(shaderZone(range));
     gl_.Uniform2fv(program_.uniform("tableZone"), static_cast<GLsizei>(zones.size()),
                    reinterpret_cast<const float*>(zones.data()));
-    const std::vector<glm::vec2> warp(table->warp.begin(), table->warp.end());
-    gl_.Uniform2fv(program_.uniform("tableWarp"), static_cast<GLsizei>(warp.size()), reinterpret_cast<const float*>(warp.data()));
-    const std::vector<glm::vec3> ramps(table->ramps.begin(), table->ramps.end());
-    gl_.Uniform3fv(program_.uniform("tableRamp"), static_cast<GLsizei>(ramps.size()), reinterpret_cast<const float*>(ramps.data()));
     std::vector<float> values;
     std::vector<glm::vec4> layers;
     std::vector<GLint> zoneAfter{table->interfaces.empty() ? 0 : table->interfaces.front().zoneBelow};

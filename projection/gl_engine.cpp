@@ -89,7 +89,8 @@ double longestEdge(const mesh::ScalarMesh& mesh, const SceneUnits& units) {
 preint::PreintegrationTable buildTable(const Scene& scene, const preint::TransferFunction& function,
                                        const SceneUnits& units) {
     const preint::ExactIntegral exact(function);
-    const auto& options = scene.settings.table;
+    preint::TableOptions options = scene.settings.table;
+    options.evenTexelsFirst = true;
     if (integralOf(scene.settings.mode) == preint::Integral::ScaleInvariant) {
         return preint::buildScaleInvariantTable(exact, 0.0, 1.0, options);
     }

@@ -20,6 +20,7 @@ class GlDefines {
 public:
     void set(const char* name, int value) { text_ += fmt::format("#define {} {}\n", name, value); }
     void set(const char* name, double value) { text_ += fmt::format("#define {} {:.9e}\n", name, value); }
+    void set(const char* name, const std::string& value) { text_ += fmt::format("#define {} {}\n", name, value); }
     const std::string& text() const { return text_; }
 
 private:

@@ -16,10 +16,10 @@ const vec2 tableZone[1] = vec2[1](vec2(TETRALUX_ZONE_LOW, TETRALUX_ZONE_PER_SCAL
 #endif
 
 #if TETRALUX_WARPS
-uniform vec2 tableWarp[TETRALUX_WARPS];
+const vec2 tableWarp[TETRALUX_WARPS] = vec2[TETRALUX_WARPS](TETRALUX_WARP_VALUES);
 #endif
 #if TETRALUX_RAMPS
-uniform vec3 tableRamp[TETRALUX_RAMPS];
+const vec3 tableRamp[TETRALUX_RAMPS] = vec3[TETRALUX_RAMPS](TETRALUX_RAMP_VALUES);
 #endif
 
 const float tableRows = tableSize * float(TETRALUX_ZONES);

@@ -11,7 +11,7 @@ namespace {
 TransferFunction fiveNodes(double second) {
     TransferFunction function;
     function.color = {{0, {0, 0, 1}}, {second, {0, 1, 1}}, {0.5, {1, 1, 0}}, {0.75, {1, 0.5, 0}}, {1, {1, 0, 0}}};
-    function.extinction = {{0, 0}, {second, 4}, {0.5, 16}, {0.75, 30}, {1, 50}};
+    function.extinction = {{0, 0}, {second, 3}, {0.5, 12}, {0.75, 25}, {1, 40}};
     return function;
 }
 
@@ -25,7 +25,7 @@ TableOptions evenFirst() {
 TEST(EvenTexels, NodesAtRoundFractionsNeedNoWarp) {
     const ExactIntegral exact(fiveNodes(0.25));
     for (const PreintegrationTable& table : {buildScaleInvariantTable(exact, 0, 1, evenFirst()),
-                                             buildStandardTable(exact, 0, 1, 0.03, evenFirst())}) {
+                                             buildStandardTable(exact, 0, 1, 0.02, evenFirst())}) {
         EXPECT_FALSE(table.warped);
         EXPECT_TRUE(table.ramps.empty());
         EXPECT_EQ((table.size - 1) % 4, 0);

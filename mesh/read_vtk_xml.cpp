@@ -2,6 +2,7 @@
 #include <vtkNew.h>
 #include <vtkXMLGenericDataObjectReader.h>
 
+#include <mesh/appended_vtu.h>
 #include <mesh/file_checks.h>
 #include <mesh/isolated_read.h>
 #include <mesh/mesh_format.h>
@@ -16,6 +17,11 @@ bool acceptsVtkXml(const std::string& source) {
 
 CellSoup readVtkXml(const std::string& source, const ReadOptions& options) {
     checkReadable(source);
+    if (hasExtension(source, {".vtu"})) {
+        if (std::optional<CellSoup> soup = readAppendedVtu(source)) {
+            return std::move(*soup);
+        }
+    }
     return readIsolated(source, [&] {
         vtkNew<vtkXMLGenericDataObjectReader> reader;
         reader->SetFileName(source.c_str());

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -24,6 +23,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <mesh/bookkeeping_names.h>
 #include <mesh/cell_types.h>
 #include <mesh/grid_soup.h>
 
@@ -115,10 +115,7 @@ void takePolyhedra(vtkUnstructuredGrid* grid, CellSoup& soup) {
 
 bool isBookkeeping(vtkDataSetAttributes* attributes, int index, const std::string& name) {
     const int role = attributes->IsArrayAnAttribute(index);
-    static const std::set<std::string> known{
-        "GlobalNodeId",        "GlobalElementId",    "PedigreeNodeId",    "PedigreeElementId", "ObjectId",
-        "vtkOriginalPointIds", "vtkOriginalCellIds", "GLOBAL_IDS_POINTS", "GLOBAL_IDS_CELLS",  "vtkCompositeIndex"};
-    return role == vtkDataSetAttributes::GLOBALIDS || role == vtkDataSetAttributes::PEDIGREEIDS || known.contains(name);
+    return role == vtkDataSetAttributes::GLOBALIDS || role == vtkDataSetAttributes::PEDIGREEIDS || isBookkeepingName(name);
 }
 
 void takeFields(vtkDataSetAttributes* attributes, Association association, std::size_t places, CellSoup& soup) {

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <mesh/appended_vtu.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <mesh/appended_data.h>
+#include <mesh/bookkeeping_names.h>
+
+namespace tetralux::mesh {
+namespace {
+
+class OpenFile {
+public:
+    explicit OpenFile(const std::string& path) : file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+        struct stat status {};
+        size_ = file_ >= 0 && ::fstat(file_, &status) == 0 && S_ISREG(status.st_mode) ? static_cast<std::uint64_t>(status.st_size) : 0;
+    }
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+    ~OpenFile() {
+        if (file_ >= 0) {
+            ::close(file_);
+        }
+    }
+    int get() const { return file_; }
+    std::uint64_t size() const { return size_; }
+
+private:
+    int file_;
+    std::uint64_t size_ = 0;
+};
+
+/// Calls `use(T{})` with the value type called `type`. \returns false if there is none.
+template <class Use>
+bool withType(const std::string& type, const Use& use) {
+    if (type == "Float64") {
+        return use(double{});
+    }
+    if (type == "Float32") {
+        return use(float{});
+    }
+    if (type == "Int64") {
+        return use(std::int64_t{});
+    }
+    if (type == "Int32") {
+        return use(std::int32_t{});
+    }
+    if (type == "UInt64") {
+        return use(std::uint64_t{});
+    }
+    if (type == "UInt32") {
+        return use(std::uint32_t{});
+    }
+    if (type == "UInt8") {
+        return use(std::uint8_t{});
+    }
+    if (type == "Int8") {
+        return use(std::int8_t{});
+    }
+    if (type == "UInt16") {
+        return use(std::uint16_t{});
+    }
+    if (type == "Int16") {
+        return use(std::int16_t{});
+    }
+    return false;
+}
+
+class Assembly {
+public:
+    Assembly(const OpenFile& file, const VtuHead& head) : file_(file), head_(head) {}
+
+    std::optional<CellSoup> assemble() {
+        // No array is smaller than a 1100th of its bytes, so counts beyond that are damage.
+        if (head_.points / 1100 > file_.size() || head_.cells / 1100 > file_.size() || head_.cells == 0) {
+            return std::nullopt;
+        }
+        for (const VtuArray& array : head_.arrays) {
+            if (!take(array)) {
+                return std::nullopt;
+            }
+        }
+        const bool whole = soup_.points.size() == head_.points && soup_.types.size() == head_.cells && !soup_.offsets.empty() &&
+                           soup_.offsets.back() == soup_.connectivity.size();
+        return whole ? std::optional(std::move(soup_)) : std::nullopt;
+    }
+
+private:
+    bool take(const VtuArray& array) {
+        switch (array.place) {
+            case VtuArray::Place::Points:
+                return array.components == 3 && soup_.points.empty() && takePoints(array);
+            case VtuArray::Place::Cells:
+                return takeCells(array);
+            case VtuArray::Place::PointData:
+                return takeField(array, Association::Point, head_.points);
+            case VtuArray::Place::CellData:
+                return takeField(array, Association::Cell, head_.cells);
+        }
+        return false;
+    }
+
+    /// Converts all values of an array by `convert(T value)` into what `makeRoom(count)` points to.
+    template <class Out, class MakeRoom, class Convert>
+    bool decode(const VtuArray& array, const MakeRoom& makeRoom, const Convert& convert) {
+        return withType(array.type, [&](auto zero) {
+            using T = decltype(zero);
+            const AppendedArray data(file_.get(), file_.size(), head_, array.offset, sizeof(T));
+            Out* const out = data.isSound() ? makeRoom(data.elements()) : nullptr;
+            return out != nullptr && data.forEachPiece([&](std::uint64_t first, const char* bytes, std::uint64_t count) {
+                for (std::uint64_t i = 0; i < count; ++i) {
+                    T value;
+                    std::memcpy(&value, bytes + i * sizeof(T), sizeof(T));
+                    out[first + i] = convert(value);
+                }
+            });
+        });
+    }
+
+    bool takePoints(const VtuArray& array) {
+        const auto room = [&](std::uint64_t count) -> double* {
+            if (count != 3 * head_.points || count == 0) {
+                return nullptr;
+            }
+            soup_.points.resize(head_.points);
+            return &soup_.points[0].x;
+        };
+        return decode<double>(array, room, [](auto value) { return static_cast<double>(value); });
+    }
+
+    bool takeCells(const VtuArray& array) {
+        if (array.components != 1 || array.type.starts_with("Float")) {
+            return false;
+        }
+        if (array.name == "connectivity") {
+            const auto room = [&](std::uint64_t count) {
+                soup_.connectivity.resize(count);
+                return soup_.connectivity.data();
+            };
+            return decode<std::uint32_t>(array, room, [](auto value) {
+                const bool fits = value >= 0 && static_cast<std::uint64_t>(value) < CellSoup::invalidPoint;
+                return fits ? static_cast<std::uint32_t>(value) : CellSoup::invalidPoint;
+            });
+        }
+        if (array.name == "offsets") {
+            const auto room = [&](std::uint64_t count) -> std::uint64_t* {
+                soup_.offsets.assign(count == head_.cells ? count + 1 : 0, 0);
+                return count == head_.cells ? soup_.offsets.data() + 1 : nullptr;
+            };
+            return decode<std::uint64_t>(array, room, [](auto value) { return static_cast<std::uint64_t>(value); });
+        }
+        const auto room = [&](std::uint64_t count) -> std::uint8_t* {
+            soup_.types.resize(count == head_.cells ? count : 0);
+            return count == head_.cells ? soup_.types.data() : nullptr;
+        };
+        return array.name == "types" && decode<std::uint8_t>(array, room, [](auto value) {
+            return value >= 0 && value <= 255 && value != polyhedron ? static_cast<std::uint8_t>(value) : std::uint8_t{255};
+        }) && std::find(soup_.types.begin(), soup_.types.end(), 255) == soup_.types.end();
+    }
+
+    bool takeField(const VtuArray& array, Association association, std::uint64_t places) {
+        if (array.name.starts_with("vtkGhost") || array.name == "vtkValidPointMask") {
+            return false;
+        }
+        Field field;
+        field.name = array.name.empty() ? fmt::format("array {}", soup_.fields.size()) : array.name;
+        field.association = association;
+        field.components = array.components;
+        field.bookkeeping = isBookkeepingName(array.name);
+        const std::uint64_t wanted = places * static_cast<std::uint64_t>(array.components);
+        const auto room = [&](std::uint64_t count) -> double* {
+            field.values.resize(count == wanted ? count : 0);
+            return count == wanted ? field.values.data() : nullptr;
+        };
+        const bool good = decode<double>(array, room, [](auto value) { return static_cast<double>(value); });
+        soup_.fields.push_back(std::move(field));
+        return good;
+    }
+
+    static constexpr int polyhedron = 42;
+    const OpenFile& file_;
+    const VtuHead& head_;
+    CellSoup soup_;
+};
+
+}  // namespace
+
+std::optional<CellSoup> readAppendedVtu(const std::string& path) {
+    const OpenFile file(path);
+    constexpr std::uint64_t longestHead = 1u << 20;
+    std::string text(static_cast<std::size_t>(std::min(file.size(), longestHead)), '\0');
+    const ssize_t got = file.size() == 0 ? 0 : ::pread(file.get(), text.data(), text.size(), 0);
+    if (got <= 0 || static_cast<std::size_t>(got) != text.size()) {
+        return std::nullopt;
+    }
+    const std::optional<VtuHead> head = parseVtuHead(text);
+    return head ? Assembly(file, *head).assemble() : std::nullopt;
+}
+
+}  // namespace tetralux::mesh

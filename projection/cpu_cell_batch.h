@@ -25,19 +25,21 @@ namespace tetralux::projection::HWY_NAMESPACE {
 
 /// Point numbers of the batch's cells in ascending order, and whether that order turns the cell inside out.
 struct SortedCorners {
-    alignas(64) std::uint32_t point[4][CellBatch::capacity];
-    alignas(64) std::uint32_t odd[CellBatch::capacity];
+    alignas(64) std::int32_t point[4][CellBatch::capacity];
+    alignas(64) std::int32_t odd[CellBatch::capacity];
+    alignas(64) std::int32_t cell[CellBatch::capacity];
 };
 
-HWY_INLINE void sortCorners(const TileFrame& frame, std::span<const TileEntry> entries, SortedCorners& corners) {
-    for (std::size_t j = 0; j < CellBatch::capacity; ++j) {
-        const mesh::Tetrahedron& cell = frame.cells[entries[std::min(j, entries.size() - 1)].cell];
-        for (std::size_t k = 0; k < 4; ++k) corners.point[k][j] = cell[k];
-    }
-    const hn::CappedTag<std::uint32_t, CellBatch::capacity> tag;
+/// `entries`: eight of them.
+HWY_INLINE void sortCorners(const TileFrame& frame, const TileEntry* entries, SortedCorners& corners) {
+    const hn::CappedTag<std::int32_t, CellBatch::capacity> tag;
+    const auto* points = reinterpret_cast<const std::int32_t*>(frame.cells);
     for (std::size_t j = 0; j < CellBatch::capacity; j += hn::Lanes(tag)) {
-        decltype(hn::Zero(tag)) p[4], odd = hn::Zero(tag);
-        for (std::size_t k = 0; k < 4; ++k) p[k] = hn::Load(tag, &corners.point[k][j]);
+        hn::Vec<decltype(tag)> key, cell, p[4], odd = hn::Zero(tag);
+        hn::LoadInterleaved2(tag, reinterpret_cast<const std::int32_t*>(entries + j), key, cell);
+        hn::Store(cell, tag, &corners.cell[j]);
+        const auto row = hn::ShiftLeft<2>(cell);
+        for (int k = 0; k < 4; ++k) p[k] = hn::GatherIndex(tag, points, hn::Add(row, hn::Set(tag, k)));
         auto exchange = [&](std::size_t a, std::size_t b) HWY_ATTR {
             const auto low = hn::Min(p[a], p[b]), high = hn::Max(p[a], p[b]);
             odd = hn::Xor(odd, hn::VecFromMask(tag, hn::Ne(low, p[a])));
@@ -57,10 +59,7 @@ HWY_INLINE void sortCorners(const TileFrame& frame, std::span<const TileEntry> e
 using DoubleIndexTag = hn::RebindToSigned<DoubleTag>;
 using HalfFloatTag = hn::Rebind<float, DoubleTag>;
 
-HWY_INLINE hn::Vec<DoubleIndexTag> pointIndex(const std::uint32_t* points) {
-    return hn::PromoteTo(DoubleIndexTag(), hn::LoadU(hn::Rebind<std::int32_t, DoubleTag>(),
-                                                     reinterpret_cast<const std::int32_t*>(points)));
-}
+using HalfIntTag = hn::Rebind<std::int32_t, DoubleTag>;
 
 HWY_INLINE void storeFloats(wide value, float* to) {
     hn::StoreU(hn::DemoteTo(HalfFloatTag(), value.v), HalfFloatTag(), to);
@@ -87,15 +86,15 @@ HWY_INLINE bool batchRectangles(const TileFrame& frame, const hn::Vec<DoubleTag>
 
 /// Lanes j … of the batch: everything but what lies behind the eye.
 template <bool Orthographic, bool Gradients>
-HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, std::span<const TileEntry> entries,
-                           const SortedCorners& corners, std::size_t j, CellBatch& batch) {
+HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const SortedCorners& corners, std::size_t j,
+                           CellBatch& batch) {
     const DoubleTag tag;
     const auto* coordinates = reinterpret_cast<const double*>(frame.points);
     Triple<wide> p[4];
     hn::Vec<DoubleTag> pixels[4];
     wide s[4];
     for (std::size_t k = 0; k < 4; ++k) {
-        const auto index = pointIndex(&corners.point[k][j]);
+        const auto index = hn::PromoteTo(DoubleIndexTag(), hn::LoadU(HalfIntTag(), &corners.point[k][j]));
         const auto row = hn::ShiftLeft<2>(index);
         const auto one = hn::Set(DoubleIndexTag(), 1);
         p[k].x = hn::GatherIndex(tag, coordinates, row);
@@ -103,19 +102,14 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, std::sp
         p[k].z = hn::GatherIndex(tag, coordinates, hn::Add(row, hn::Set(DoubleIndexTag(), 2)));
         pixels[k] = hn::GatherIndex(tag, coordinates, hn::Add(row, hn::Set(DoubleIndexTag(), 3)));
     }
-    alignas(64) float scalars[4][CellBatch::capacity];
-    for (std::size_t lane = 0; lane < hn::Lanes(tag); ++lane)
-        for (std::size_t k = 0; k < 4; ++k)
-            scalars[k][lane] = frame.cellData ? frame.scalars[entries[std::min(j + lane, entries.size() - 1)].cell]
-                                              : frame.scalars[corners.point[k][j + lane]];
     const HalfFloatTag half;
-    auto low = hn::Load(half, scalars[0]), high = low;
+    hn::Vec<HalfFloatTag> scalars[4];
     for (std::size_t k = 0; k < 4; ++k) {
-        const auto value = hn::Load(half, scalars[k]);
-        low = hn::Min(low, value);
-        high = hn::Max(high, value);
-        s[k] = hn::PromoteTo(tag, value);
+        scalars[k] = hn::GatherIndex(half, frame.scalars, hn::LoadU(HalfIntTag(), frame.cellData ? &corners.cell[j] : &corners.point[k][j]));
+        s[k] = hn::PromoteTo(tag, scalars[k]);
     }
+    const auto low = hn::Min(hn::Min(scalars[0], scalars[1]), hn::Min(scalars[2], scalars[3]));
+    const auto high = hn::Max(hn::Max(scalars[0], scalars[1]), hn::Max(scalars[2], scalars[3]));
     hn::StoreU(low, half, &batch.scalarLow[j]);
     hn::StoreU(high, half, &batch.scalarHigh[j]);
     const bool special = batchRectangles(frame, pixels, tileX, tileY, j, batch);
@@ -125,14 +119,15 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, std::sp
     const auto cell = projectCell<wide, Orthographic>(forms, reference, s);
 
     const wide zero(0.0);
-    const auto odd = hn::RebindMask(tag, hn::Ne(hn::PromoteTo(hn::RebindToUnsigned<DoubleTag>(),
-                                                              hn::LoadU(hn::Rebind<std::uint32_t, DoubleTag>(), &corners.odd[j])),
-                                                hn::Zero(hn::RebindToUnsigned<DoubleTag>())));
+    const auto odd = hn::Ne(hn::PromoteTo(DoubleIndexTag(), hn::LoadU(HalfIntTag(), &corners.odd[j])), hn::Zero(DoubleIndexTag()));
+    auto fronts = hn::Zero(DoubleIndexTag());
     for (std::size_t k = 0; k < 4; ++k) {
-        const wide side = select(odd, -forms.eye[k], forms.eye[k]);
-        storeFloats(select(side < zero, wide(1.0), zero), &batch.front[k][j]);
+        const auto inside = hn::RebindMask(DoubleIndexTag(), forms.eye[k] < zero);
+        fronts = hn::Or(fronts, hn::IfThenElseZero(hn::Xor(inside, odd), hn::Set(DoubleIndexTag(), std::int64_t{1} << k)));
         for (std::size_t i = 0; i < 3; ++i) storeFloats(cell.plane[k][i], &batch.plane[k][i][j]);
     }
+    const hn::Rebind<std::uint32_t, DoubleTag> narrow;
+    hn::StoreU(hn::TruncateTo(narrow, hn::BitCast(hn::RebindToUnsigned<DoubleTag>(), fronts)), narrow, &batch.frontMask[j]);
     storeFloats(cell.scalar, &batch.scalar[j]);
     storeFloats(cell.scalarPerX, &batch.scalarPerX[j]);
     storeFloats(cell.scalarPerY, &batch.scalarPerY[j]);
@@ -142,7 +137,7 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, std::sp
     storeFloats(wide(tileY - frame.centre.y) - reference.imageY, &batch.offsetY[j]);
 
     const wide nearest = min(min(p[0].z, p[1].z), min(p[2].z, p[3].z)), deepest = max(max(p[0].z, p[1].z), max(p[2].z, p[3].z));
-    const auto depths = depthBounds<wide, Orthographic>(frame.depthReference, reference.depth, nearest, deepest);
+    const auto depths = depthBounds<wide, Orthographic>(frame.depthReference, reference.depth, reference.perDepth, nearest, deepest);
     storeFloats(depths.rhoNear, &batch.rhoNear[j]);
     storeFloats(depths.rhoFar, &batch.rhoFar[j]);
     storeFloats(depths.nearnessPerRho, &batch.nearnessPerRho[j]);
@@ -166,14 +161,20 @@ template <bool Orthographic, bool Gradients>
 HWY_INLINE std::size_t setUpBatch(const TileFrame& frame, int tileX, int tileY, std::span<const TileEntry> entries,
                                   CellBatch& batch) {
     const std::size_t cells = std::min<std::size_t>(entries.size(), CellBatch::capacity);
+    TileEntry padded[CellBatch::capacity];
+    const TileEntry* eight = entries.data();
+    if (HWY_UNLIKELY(cells < CellBatch::capacity)) {
+        for (std::size_t j = 0; j < CellBatch::capacity; ++j) padded[j] = entries[std::min(j, cells - 1)];
+        eight = padded;
+    }
     SortedCorners corners;
-    sortCorners(frame, entries, corners);
+    sortCorners(frame, eight, corners);
     bool special = false;
     for (std::size_t j = 0; j < cells; j += hn::Lanes(DoubleTag()))
-        special |= setUpLanes<Orthographic, Gradients>(frame, tileX, tileY, entries, corners, j, batch);
-    if (special)
+        special |= setUpLanes<Orthographic, Gradients>(frame, tileX, tileY, corners, j, batch);
+    if (HWY_UNLIKELY(special))
         for (std::size_t j = 0; j < cells; ++j) {
-            const std::uint32_t points[4] = {corners.point[0][j], corners.point[1][j], corners.point[2][j], corners.point[3][j]};
+            const std::int32_t points[4] = {corners.point[0][j], corners.point[1][j], corners.point[2][j], corners.point[3][j]};
             setUpCellAtEye(frame, tileX, tileY, points, entries[j].cell, corners.odd[j] != 0, j, batch);
         }
     return cells;

@@ -67,7 +67,7 @@ TETRALUX_CELL_FUNCTION CellForms<R> cellForms(const Triple<R>& a, const Triple<R
 /// Where a cell's numbers refer to: image position (pixels from the optical axis) and depth.
 template <class R>
 struct CellReference {
-    R imageX, imageY, depth;
+    R imageX, imageY, depth, perDepth;  ///< perDepth = 1/depth
     R coordinate[4];  ///< λ_k there
 };
 
@@ -82,10 +82,11 @@ TETRALUX_CELL_FUNCTION CellReference<R> centroidReference(const CellForms<R>& fo
     if constexpr (Orthographic) {
         const R least(1e-9);
         reference.depth = select(abs(reference.depth) < least, least, reference.depth);
-    } else {
-        const R inverse = R(1.0) / reference.depth;
-        reference.imageX = reference.imageX * inverse;
-        reference.imageY = reference.imageY * inverse;
+    }
+    reference.perDepth = R(1.0) / reference.depth;
+    if constexpr (!Orthographic) {
+        reference.imageX = reference.imageX * reference.perDepth;
+        reference.imageY = reference.imageY * reference.perDepth;
     }
     for (auto& coordinate : reference.coordinate) coordinate = quarter;
     return reference;
@@ -112,7 +113,7 @@ struct ProjectedCell {
 /// Bounds of plane coefficients, so that what is computed from them in float stays finite.
 inline constexpr double largestPlane = 1e30;
 /// Least |λ(eye)| of a face: its plane stays finite when it is seen edge-on.
-inline constexpr double leastEyeCoordinate = 1e-20, leastDeterminant = 1e-290;
+inline constexpr double leastEyeCoordinate = 1e-20, leastDeterminant = 1e-140;
 
 template <class R, bool Orthographic>
 TETRALUX_CELL_FUNCTION ProjectedCell<R> projectCell(const CellForms<R>& forms, const CellReference<R>& reference, const R (&s)[4]) {
@@ -121,17 +122,22 @@ TETRALUX_CELL_FUNCTION ProjectedCell<R> projectCell(const CellForms<R>& forms, c
     const R lateral = Orthographic ? R(1.0) : reference.depth;
     const R rhoToDepth = Orthographic ? abs(reference.depth) : reference.depth;
     const R leastEye = size * R(leastEyeCoordinate) + R(leastDeterminant), bound(largestPlane);
+    R eye[4], inverse[4];
+    for (int k = 0; k < 4; ++k) eye[k] = copySign(max(abs(forms.eye[k]), leastEye), forms.eye[k]);
+    for (int k = 0; k < 4; k += 2) {  // one division for two
+        const R both = R(-1.0) / (eye[k] * eye[k + 1]);
+        inverse[k] = both * eye[k + 1];
+        inverse[k + 1] = both * eye[k];
+    }
     for (int k = 0; k < 4; ++k) {
-        R eye = forms.eye[k];
-        if (Orthographic) eye = eye * rhoToDepth;
-        const R inverse = R(-1.0) / copySign(max(abs(eye), leastEye), eye);
-        const R values[3] = {forms.determinant * reference.coordinate[k] * inverse, lateral * forms.normal[k].x * inverse,
-                             lateral * forms.normal[k].y * inverse};
+        const R perEye = Orthographic ? inverse[k] * abs(reference.perDepth) : inverse[k];
+        const R values[3] = {forms.determinant * reference.coordinate[k] * perEye, lateral * forms.normal[k].x * perEye,
+                             lateral * forms.normal[k].y * perEye};
         for (int j = 0; j < 3; ++j) cell.plane[k][j] = min(max(values[j], -bound), bound);
     }
     // from differences, so that a constant scalar has exactly no gradient
-    const R inverse = R(1.0) / copySign(max(size, R(leastDeterminant)), forms.determinant);
-    const R d1 = (s[1] - s[0]) * inverse, d2 = (s[2] - s[0]) * inverse, d3 = (s[3] - s[0]) * inverse;
+    const R perDeterminant = R(1.0) / copySign(max(size, R(leastDeterminant)), forms.determinant);
+    const R d1 = (s[1] - s[0]) * perDeterminant, d2 = (s[2] - s[0]) * perDeterminant, d3 = (s[3] - s[0]) * perDeterminant;
     const auto &n1 = forms.normal[1], &n2 = forms.normal[2], &n3 = forms.normal[3];
     cell.gradient = {d1 * n1.x + d2 * n2.x + d3 * n3.x, d1 * n1.y + d2 * n2.y + d3 * n3.y, d1 * n1.z + d2 * n2.z + d3 * n3.z};
     cell.scalar = s[0] + (s[1] - s[0]) * reference.coordinate[1] + (s[2] - s[0]) * reference.coordinate[2] +
@@ -153,21 +159,20 @@ struct DepthBounds {
 
 /// Nearness is zRef/z − 1 in perspective, zRef − z in orthographic views.
 template <class R, bool Orthographic>
-TETRALUX_CELL_FUNCTION DepthBounds<R> depthBounds(double depthReference, const R& depth, const R& nearest, const R& deepest) {
+TETRALUX_CELL_FUNCTION DepthBounds<R> depthBounds(double depthReference, const R& depth, const R& perDepth, const R& nearest, const R& deepest) {
     DepthBounds<R> bounds;
     const R one(1.0), reference(depthReference), slack(1e-6);
     if constexpr (Orthographic) {
-        const R inverse = one / abs(depth);
-        bounds.rhoNear = (depth - nearest) * inverse;
-        bounds.rhoFar = (depth - deepest) * inverse;
+        bounds.rhoNear = (depth - nearest) * abs(perDepth);
+        bounds.rhoFar = (depth - deepest) * abs(perDepth);
         bounds.nearnessPerRho = abs(depth);
         bounds.nearness = reference - depth;
     } else {
-        const R inverse = one / depth;
-        bounds.rhoNear = (depth - nearest) / nearest;
-        bounds.rhoFar = (depth - deepest) / deepest;
-        bounds.nearnessPerRho = reference * inverse;
-        bounds.nearness = (reference - depth) * inverse;
+        const R inverse = one / (nearest * deepest);
+        bounds.rhoNear = (depth - nearest) * (inverse * deepest);
+        bounds.rhoFar = (depth - deepest) * (inverse * nearest);
+        bounds.nearnessPerRho = reference * perDepth;
+        bounds.nearness = (reference - depth) * perDepth;
     }
     const R widening = slack * (bounds.rhoNear - bounds.rhoFar);
     bounds.rhoNear = bounds.rhoNear + widening;

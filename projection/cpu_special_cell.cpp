@@ -55,12 +55,12 @@ bool rectangleAtEye(const TileFrame& frame, const std::array<CpuPoint, 4>& corne
     return !rect.empty();
 }
 
-void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::uint32_t (&points)[4], mesh::CellIndex cellIndex,
+void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int32_t (&points)[4], mesh::CellIndex cellIndex,
                     bool odd, std::size_t j, CellBatch& batch) {
     std::array<CpuPoint, 4> corners;
     bool behind = false;
     for (std::size_t k = 0; k < 4; ++k) {
-        corners[k] = frame.points[points[k]];
+        corners[k] = frame.points[static_cast<std::uint32_t>(points[k])];
         behind = behind || std::isnan(corners[k].pixelX);
     }
     if (!behind) return;
@@ -78,20 +78,23 @@ void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::uin
     double s[4], deepest = 0;
     for (std::size_t k = 0; k < 4; ++k) {
         p[k] = {corners[k].x, corners[k].y, corners[k].z};
-        s[k] = frame.cellData ? frame.scalars[cellIndex] : frame.scalars[points[k]];
+        s[k] = frame.cellData ? frame.scalars[cellIndex] : frame.scalars[static_cast<std::uint32_t>(points[k])];
         deepest = std::max(deepest, p[k].z);
     }
     const auto forms = cellForms<double, false>(p[0], p[1], p[2], p[3]);
     CellReference<double> reference;
     reference.depth = 0.5 * deepest;
+    reference.perDepth = 1.0 / reference.depth;
     reference.imageX = 0.5 * (rect.x0 + rect.x1) - frame.centre.x;
     reference.imageY = 0.5 * (rect.y0 + rect.y1) - frame.centre.y;
     coordinatesAt<double, false>(forms, reference);
     const auto cell = projectCell<double, false>(forms, reference, s);
+    std::uint32_t fronts = 0;
     for (std::size_t k = 0; k < 4; ++k) {
-        batch.front[k][j] = (odd ? -forms.eye[k] : forms.eye[k]) < 0 ? 1.0f : 0.0f;
+        fronts |= (odd ? -forms.eye[k] : forms.eye[k]) < 0 ? 1u << k : 0u;
         for (std::size_t i = 0; i < 3; ++i) batch.plane[k][i][j] = static_cast<float>(cell.plane[k][i]);
     }
+    batch.frontMask[j] = fronts;
     batch.scalar[j] = static_cast<float>(cell.scalar);
     batch.scalarPerX[j] = static_cast<float>(cell.scalarPerX);
     batch.scalarPerY[j] = static_cast<float>(cell.scalarPerY);
@@ -99,7 +102,7 @@ void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::uin
     batch.scale[j] = static_cast<float>(reference.depth);
     batch.offsetX[j] = static_cast<float>(tileX - frame.centre.x - reference.imageX);
     batch.offsetY[j] = static_cast<float>(tileY - frame.centre.y - reference.imageY);
-    const auto depths = depthBounds<double, false>(frame.depthReference, reference.depth, deepest, deepest);
+    const auto depths = depthBounds<double, false>(frame.depthReference, reference.depth, reference.perDepth, deepest, deepest);
     batch.rhoNear[j] = static_cast<float>(largestRho);
     batch.rhoFar[j] = static_cast<float>(depths.rhoFar - 1e-6);
     batch.nearness[j] = static_cast<float>(depths.nearness);

@@ -18,7 +18,7 @@ struct CellBatch {
     using Lanes = T[capacity];
 
     alignas(64) Lanes<float> plane[4][3];
-    Lanes<float> front[4];                  ///< 1 where the face bounds rho from above
+    Lanes<std::uint32_t> frontMask;         ///< Σ 2^k over the faces that bound rho from above
     Lanes<float> offsetX, offsetY;          ///< dx, dy of the tile's first pixel
     Lanes<float> scalar, scalarPerX, scalarPerY, scalarPerRho, scalarLow, scalarHigh;
     Lanes<float> scale;
@@ -39,7 +39,7 @@ inline std::uint64_t packedPair(int x, int y) {
 }
 
 /// Sets lane j anew if a corner of the cell lies behind the eye. `points` ascend; `odd`: that order turns the cell inside out.
-void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::uint32_t (&points)[4], mesh::CellIndex cell,
+void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int32_t (&points)[4], mesh::CellIndex cell,
                     bool odd, std::size_t j, CellBatch& batch);
 
 /// The pixels that the part of a cell in front of the eye may cover; false when there are none.

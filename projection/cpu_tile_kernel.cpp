@@ -11,6 +11,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <array>
 #include <cmath>
 
 #include <projection/cpu_cell_batch.h>
@@ -34,6 +35,24 @@ struct TileBuffers {
     alignas(64) float r[tilePixels], g[tilePixels], b[tilePixels], t[tilePixels], last[tilePixels], lastScalar[tilePixels],
         rayLength[tilePixels];
 };
+
+/// Faces of a cell, those that bound rho from above first.
+struct FaceOrder {
+    int face[4], fronts;
+};
+constexpr std::array<FaceOrder, 16> makeFaceOrders() {
+    std::array<FaceOrder, 16> orders{};
+    for (unsigned fronts = 0; fronts < 16; ++fronts) {
+        FaceOrder& order = orders[fronts];
+        int backs = 4;
+        for (unsigned k = 0; k < 4; ++k) {
+            if (fronts >> k & 1u) order.face[order.fronts++] = static_cast<int>(k);
+            else order.face[--backs] = static_cast<int>(k);
+        }
+    }
+    return orders;
+}
+constexpr std::array<FaceOrder, 16> faceOrders = makeFaceOrders();
 
 constexpr float unset = -1e30f;          // no scalar yet
 constexpr float nothingYet = 3e38f;      // nearness before the first segment
@@ -149,12 +168,9 @@ private:
         const int x1 = batch_.end[j][0], y1 = batch_.end[j][1];
         const int xBegin = batch_.begin[j][0] / columnWidth * columnWidth, yBegin = batch_.begin[j][1];
         if (xBegin >= x1 || yBegin >= y1) return;
-        int face[4];
-        int fronts = 0, backs = 4;
-        for (int k = 0; k < 4; ++k) {
-            if (batch_.front[k][j] != 0) face[fronts++] = k;
-            else face[--backs] = k;
-        }
+        const FaceOrder& order = faceOrders[batch_.frontMask[j]];
+        const int* face = order.face;
+        const int fronts = order.fronts;
         std::size_t first = 0, last = 0;
         if constexpr (integrates) {
             const CpuTransfer& transfer = *frame_.transfer;

@@ -10,7 +10,6 @@ namespace tetralux::projection {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t lookUpSteps = 1024;
 constexpr double largestPeakDepth = 1e4;
 
 /// The line that piecewise linear nodes follow at `inside`, which is no node, continued to `s`.
@@ -81,6 +80,9 @@ CpuTransfer::CpuTransfer(const preint::TransferFunction& function) : function_(f
     }
     pieces_ = std::move(merged);
 
+    ends_.push_back(-std::numeric_limits<float>::infinity());
+    for (std::size_t i = 0; i + 1 < pieces_.size(); ++i) ends_.push_back(pieces_[i].high);
+    ends_.push_back(std::numeric_limits<float>::infinity());
     for (std::size_t step = 0; step <= lookUpSteps; ++step) {
         const float s = static_cast<float>(step) / static_cast<float>(lookUpSteps);
         std::uint32_t piece = 0;
@@ -134,20 +136,6 @@ void CpuTransfer::findConstantColor() {
         for (float slope : piece.colorSlope) constantColor_ = constantColor_ && slope == 0;
     }
     for (const auto& peak : peaks_) meet(peak.color);
-}
-
-std::size_t CpuTransfer::pieceFromAbove(float s) const {
-    const float position = std::clamp(s, 0.0f, 1.0f) * static_cast<float>(lookUpSteps);
-    std::size_t piece = firstPiece_[static_cast<std::size_t>(position)];
-    while (piece + 1 < pieces_.size() && pieces_[piece].high <= s) ++piece;
-    while (piece > 0 && pieces_[piece].low > s) --piece;
-    return piece;
-}
-
-std::size_t CpuTransfer::pieceFromBelow(float s) const {
-    std::size_t piece = pieceFromAbove(s);
-    while (piece > 0 && pieces_[piece].low >= s) --piece;
-    return piece;
 }
 
 }  // namespace tetralux::projection

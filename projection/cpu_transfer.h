@@ -3,6 +3,7 @@
 /// A transfer function cut at its nodes: what the tile engine walks through instead of looking up a table.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -36,8 +37,18 @@ public:
     const std::vector<TransferPeak>& peaks() const { return peaks_; }
 
     /// The piece with low ≤ s < high, or low < s ≤ high.
-    std::size_t pieceFromAbove(float s) const;
-    std::size_t pieceFromBelow(float s) const;
+    std::size_t pieceFromAbove(float s) const {
+        const float position = std::clamp(s, 0.0f, 1.0f) * static_cast<float>(lookUpSteps);
+        std::size_t piece = firstPiece_[static_cast<std::size_t>(position)];
+        while (ends_[piece + 1] <= s) ++piece;
+        while (ends_[piece] > s) --piece;
+        return piece;
+    }
+    std::size_t pieceFromBelow(float s) const {
+        std::size_t piece = pieceFromAbove(s);
+        while (piece > 0 && ends_[piece] >= s) --piece;
+        return piece;
+    }
 
     /// Whether all that can be seen has one colour, so that order does not matter.
     bool constantColor() const { return constantColor_; }
@@ -47,12 +58,15 @@ public:
     glm::dvec3 colorAt(double scalar) const { return function_.colorAt(scalar); }
 
 private:
+    static constexpr std::size_t lookUpSteps = 1024;
+
     void addPiece(const preint::TransferFunction& function, double low, double high);
     void findConstantColor();
 
     preint::TransferFunction function_;
     std::vector<TransferPiece> pieces_;
     std::vector<TransferPeak> peaks_;
+    std::vector<float> ends_;                // −∞, where each piece but the first begins, ∞
     std::vector<std::uint32_t> firstPiece_;  // by equal steps over [0, 1]
     bool constantColor_ = false;
     glm::dvec3 color_{0};

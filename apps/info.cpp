@@ -2,8 +2,6 @@
 //
 // tetralux info: what a mesh holds, for people or (--json) for machines.
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <string>
 
@@ -14,6 +12,7 @@
 #include <apps/commands.h>
 #include <apps/read_options.h>
 #include <apps/report_text.h>
+#include <mesh/mesh_statistics.h>
 #include <mesh/read_mesh.h>
 
 namespace tetralux::apps {
@@ -26,89 +25,107 @@ struct InfoOptions {
     bool json = false;
 };
 
-struct Range {
-    double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
-    std::uint64_t nonFinite = 0;
+struct Findings {
+    mesh::MeshReport report;  ///< of reading, with the defects that the statistics found
+    mesh::MeshStatistics statistics;
 };
 
-/// Of one component over all values; what is not finite is counted instead.
-Range componentRange(const mesh::Field& field, int component) {
-    Range range;
-    for (std::size_t i = static_cast<std::size_t>(component); i < field.values.size();
-         i += static_cast<std::size_t>(field.components)) {
-        if (!std::isfinite(field.values[i])) {
-            ++range.nonFinite;
-            continue;
-        }
-        range.low = std::min(range.low, field.values[i]);
-        range.high = std::max(range.high, field.values[i]);
-    }
-    return range;
+Findings findingsOf(const InfoOptions& options) {
+    const mesh::ReadResult source = mesh::readMesh(options.source, options.read);
+    Findings findings{source.report, mesh::meshStatistics(source.mesh)};
+    // What reading has counted already is kept: it speaks of the cells of the file.
+    findings.report.defects.insert(findings.statistics.defects.begin(), findings.statistics.defects.end());
+    return findings;
 }
 
 const char* placeName(mesh::Association association) {
     return association == mesh::Association::Point ? "points" : "cells";
 }
 
-nlohmann::json infoJson(const InfoOptions& options, const mesh::ReadResult& found) {
-    const mesh::BoundingBox bounds = mesh::usedBounds(found.mesh.positions, found.mesh.cells);
-    nlohmann::json result = {
-        {"mesh", options.source},
-        {"points", found.mesh.positions.size()},
-        {"cells",
-         {{"read", found.report.cellsRead}, {"types", found.report.cellTypes}, {"skipped", found.report.skipped}}},
-        {"tetrahedra", found.mesh.cells.size()},
-        {"bounds",
-         {{"low", {bounds.low.x, bounds.low.y, bounds.low.z}},
-          {"high", {bounds.high.x, bounds.high.y, bounds.high.z}}}},
-        {"fields", nlohmann::json::array()},
-        {"defects", defectsJson(found.report)}};
-    for (const mesh::Field& field : found.mesh.fields) {
-        nlohmann::json ranges = nlohmann::json::array();
-        std::uint64_t nonFinite = 0;
-        for (int component = 0; component < field.components; ++component) {
-            const Range range = componentRange(field, component);
-            ranges.push_back({range.low, range.high});
-            nonFinite += range.nonFinite;
-        }
-        result["fields"].push_back({{"name", field.name},
-                                    {"on", placeName(field.association)},
-                                    {"components", field.components},
-                                    {"range", ranges},
-                                    {"non_finite", nonFinite}});
-    }
-    return result;
+nlohmann::json vectorJson(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
 }
 
-void printField(const mesh::Field& field) {
-    fmt::print("  {} on {}", field.name, placeName(field.association));
-    std::uint64_t nonFinite = 0;
-    for (int component = 0; component < field.components; ++component) {
-        const Range range = componentRange(field, component);
-        nonFinite += range.nonFinite;
-        fmt::print("{} {:.6g} to {:.6g}", component == 0 ? ":" : ",", range.low, range.high);
-    }
-    if (nonFinite > 0) fmt::print(" ({} values are NaN or infinite)", nonFinite);
+nlohmann::json fieldJson(const mesh::FieldStatistics& field) {
+    return {{"name", field.name},
+            {"on", placeName(field.association)},
+            {"components", field.components},
+            {"bookkeeping", field.bookkeeping},
+            {"min", field.low},
+            {"max", field.high},
+            {"mean", field.mean},
+            {"values", field.values},
+            {"non_finite", field.nonFinite},
+            {"histogram", field.histogram}};
+}
+
+nlohmann::json infoJson(const InfoOptions& options, const Findings& found) {
+    const mesh::MeshStatistics& all = found.statistics;
+    nlohmann::json fields = nlohmann::json::array();
+    for (const mesh::FieldStatistics& field : all.fields) fields.push_back(fieldJson(field));
+    return {{"mesh", options.source},
+            {"points", all.points},
+            {"points_merged", found.report.pointsMerged},
+            {"cells",
+             {{"read", found.report.cellsRead}, {"types", found.report.cellTypes}, {"skipped", found.report.skipped}}},
+            {"tetrahedra", all.cells},
+            {"bounds", {{"low", vectorJson(all.bounds.low)}, {"high", vectorJson(all.bounds.high)}}},
+            {"volume", {{"total", all.volume}, {"smallest", all.smallestVolume}, {"largest", all.largestVolume}}},
+            {"faces",
+             {{"inner", all.innerFaces}, {"boundary", all.boundaryFaces}, {"delaunay_share", all.delaunayShare()}}},
+            {"components", {{"count", all.components}, {"largest", all.largestComponent}}},
+            {"memory_bytes", all.memoryBytes},
+            {"fields", fields},
+            {"defects", defectsJson(found.report)}};
+}
+
+/// A histogram in one line of 16 characters, empty for a constant field.
+std::string sketch(const std::vector<std::uint64_t>& histogram) {
+    constexpr std::size_t columns = 16;
+    constexpr const char* heights[] = {" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+    if (histogram.size() % columns != 0 || histogram.empty()) return "";
+    std::uint64_t sums[columns] = {};
+    for (std::size_t i = 0; i < histogram.size(); ++i) sums[i * columns / histogram.size()] += histogram[i];
+    const std::uint64_t largest = std::max<std::uint64_t>(1, *std::max_element(std::begin(sums), std::end(sums)));
+    std::string line;
+    // Rounded up: what is there at all shows.
+    for (const std::uint64_t sum : sums) line += heights[(sum * 8 + largest - 1) / largest];
+    return fmt::format("  |{}|", line);
+}
+
+void printField(const mesh::FieldStatistics& field) {
+    fmt::print("  {} on {}{}: {:.6g} to {:.6g}, mean {:.6g}{}", field.name, placeName(field.association),
+               field.components > 1 ? fmt::format(", {} components, magnitude", field.components) : "", field.low,
+               field.high, field.mean, sketch(field.histogram));
+    if (field.nonFinite > 0) fmt::print(" ({} values are NaN or infinite)", field.nonFinite);
+    if (field.bookkeeping) fmt::print(" (bookkeeping)");
     fmt::print("\n");
 }
 
-void printInfo(const InfoOptions& options, const mesh::ReadResult& found) {
-    const mesh::BoundingBox bounds = mesh::usedBounds(found.mesh.positions, found.mesh.cells);
+void printInfo(const InfoOptions& options, const Findings& found) {
+    const mesh::MeshStatistics& all = found.statistics;
+    const mesh::BoundingBox& box = all.bounds;
     fmt::print("{}\n", options.source);
     for (const auto& [type, count] : found.report.cellTypes) fmt::print("cells: {} {}\n", count, type);
-    fmt::print("tetrahedra: {}\npoints: {}\n", found.mesh.cells.size(), found.mesh.positions.size());
-    fmt::print("bounds: {:.6g},{:.6g},{:.6g} to {:.6g},{:.6g},{:.6g}\n", bounds.low.x, bounds.low.y, bounds.low.z,
-               bounds.high.x, bounds.high.y, bounds.high.z);
-    fmt::print("fields:{}\n", found.mesh.fields.empty() ? " none" : "");
-    for (const mesh::Field& field : found.mesh.fields) printField(field);
     for (const auto& [reason, count] : found.report.skipped) fmt::print("left out: {} ({})\n", count, reason);
+    fmt::print("tetrahedra: {} in {} connected component{}\n", all.cells, all.components,
+               all.components == 1 ? "" : fmt::format("s, the largest of {}", all.largestComponent));
+    fmt::print("points: {}\n", all.points);
+    fmt::print("bounds: {:.6g},{:.6g},{:.6g} to {:.6g},{:.6g},{:.6g}\n", box.low.x, box.low.y, box.low.z, box.high.x,
+               box.high.y, box.high.z);
+    fmt::print("volume: {:.6g}, cells from {:.3g} to {:.3g}\n", all.volume, all.smallestVolume, all.largestVolume);
+    fmt::print("faces: {} inner ({:.1f} % Delaunay), {} on the boundary\n", all.innerFaces, 100.0 * all.delaunayShare(),
+               all.boundaryFaces);
+    fmt::print("memory: {:.1f} MiB\n", static_cast<double>(all.memoryBytes) / (1024.0 * 1024.0));
+    fmt::print("fields:{}\n", all.fields.empty() ? " none" : "");
+    for (const mesh::FieldStatistics& field : all.fields) printField(field);
     const auto defects = defectLines(found.report);
     fmt::print("defects:{}\n", defects.empty() ? " none" : "");
     for (const std::string& line : defects) fmt::print("  {}\n", line);
 }
 
 int info(const InfoOptions& options) {
-    const mesh::ReadResult found = mesh::readMesh(options.source, options.read);
+    const Findings found = findingsOf(options);
     if (options.json)
         fmt::print("{}", jsonText(infoJson(options, found)));
     else

@@ -47,6 +47,10 @@ void checkOutputs(const RenderOptions& options, const std::vector<std::string>& 
 void tell(const RenderOptions& options, const std::vector<std::string>& paths, const SceneRenderer& renderer) {
     const RenderRecord& record = renderer.record();
     for (const std::string& line : defectLines(record.mesh)) fmt::print("{}: {}\n", options.source, line);
+    if (record.verification)
+        fmt::print("error against the reference: rmse {:.2g} (95 % sure: below {:.2g}), max {:.2g} in {} pixels\n",
+                   record.verification->rmse, record.verification->rmseBound, record.verification->max,
+                   record.verification->pixels);
     const projection::FrameReport& first = record.frames.front();
     double total = 0.0;
     for (const projection::FrameReport& frame : record.frames) total += frame.frameMilliseconds;

@@ -36,7 +36,8 @@ void addMeshOptions(CLI::App& command, RenderOptions& options) {
 void addPictureOptions(CLI::App& command, RenderOptions& options) {
     command.add_option(
         "--tf", options.transferFunction,
-        fmt::format("transfer function: JSON file or one of {}", fmt::join(preint::presetNames(), ", ")));
+        fmt::format("transfer function: JSON file or one of {}; default: cool-to-warm, nothing quite clear",
+                    fmt::join(preint::presetNames(), ", ")));
     addParsed(command, "--mode", options.settings.mode, parseMode, modeNames(), "MODE");
     addParsed(command, "--background", options.background, parseBackground, "colour put under the picture, or none",
               "r,g,b");
@@ -90,6 +91,8 @@ void addOutputOptions(CLI::App& command, RenderOptions& options) {
     addNumber<int>(
         command, "--frames", options.frames, [](double value) { return value >= 1.0 && value <= 1e6; },
         "a whole number from 1", "an orbit of so many pictures: OUT_0000.png, OUT_0001.png, ...");
+    addNumber<int>(command, "--verify", options.verifiedPixels, positive, "a whole number from 1",
+                   "measure the error: compute so many pixels again by the reference");
     command.add_option("--report", options.report, "JSON file with cells, times and memory");
     command.add_flag("--quiet", options.quiet, "nothing on standard output, no progress bar");
 }

@@ -23,7 +23,7 @@ struct RenderOptions {
     std::string source;  ///< mesh file or generated field
     std::string scalar;  ///< empty: the first field
     mesh::ReadOptions read;
-    std::string transferFunction = "inferno";  ///< file or preset
+    std::string transferFunction;  ///< file or preset; empty: the default
     projection::RenderSettings settings;
     projection::EngineOptions engine;
 
@@ -35,7 +35,8 @@ struct RenderOptions {
     std::string output;         ///< .png or .exr
     std::optional<int> frames;  ///< an orbit of so many images
     std::optional<glm::vec3> background;
-    std::string report;  ///< JSON file; empty: none
+    int verifiedPixels = 0;  ///< so many pixels of the first frame are computed again by the reference
+    std::string report;      ///< JSON file; empty: none
     bool quiet = false;
 };
 

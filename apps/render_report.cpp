@@ -59,6 +59,14 @@ json tableJson(const preint::PreintegrationTable& table) {
             {"build_ms", table.buildMilliseconds}};
 }
 
+json verificationJson(const projection::Verification& found) {
+    return {{"pixels", found.pixels},
+            {"rmse", found.rmse},
+            {"rmse_bound", found.rmseBound},
+            {"max", found.max},
+            {"unseen_share", found.unseenShare}};
+}
+
 json cameraJson(const projection::Camera& camera) {
     json result = {
         {"eye", vectorJson(camera.eye)}, {"target", vectorJson(camera.target)}, {"up", vectorJson(camera.up)}};
@@ -95,6 +103,7 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
           {"tetrahedra", record.tetrahedra},
           {"drawn", first.cellsDrawn},
           {"skipped", skippedCells(record, first)}}},
+        {"points_merged", record.mesh.pointsMerged},
         {"defects", defectsJson(record.mesh)},
         {"order", {{"method", first.orderMethod}, {"sorted", first.cellsSorted}, {"cyclic", first.orderCycles}}},
         {"fragments", first.fragments},
@@ -102,6 +111,7 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
         {"pixels", {{"repaired", repaired}, {"wrong", wrong}}},
         {"peak_memory_bytes", peakMemoryBytes()},
     };
+    if (record.verification) report["verification"] = verificationJson(*record.verification);
     if (const auto* table = engine.table()) report["table"] = tableJson(*table);
     return report;
 }

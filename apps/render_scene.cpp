@@ -17,6 +17,8 @@ namespace tetralux::apps {
 
 namespace {
 
+constexpr std::uint32_t verificationSeed = 1;  // the same pixels in every run
+
 class Stopwatch {
 public:
     double milliseconds() const {
@@ -27,8 +29,17 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// A preset or a file; a preset's name wins over a file of that name.
+/// Without --tf: colours that stand out from black at either end, and some extinction everywhere, so that the whole
+/// mesh shows.
+preint::TransferFunction defaultTransferFunction() {
+    preint::TransferFunction function = preint::preset("cool-to-warm");
+    function.extinction = {{0.0, 0.5}, {0.15, 0.8}, {0.5, 4.0}, {1.0, 25.0}};
+    return function;
+}
+
+/// Nothing, a preset or a file; a preset's name wins over a file of that name.
 preint::TransferFunction loadTransferFunction(const std::string& name) {
+    if (name.empty()) return defaultTransferFunction();
     const std::vector<std::string> presets = preint::presetNames();
     if (std::find(presets.begin(), presets.end(), name) != presets.end()) return preint::preset(name);
     std::error_code ignored;
@@ -38,10 +49,20 @@ preint::TransferFunction loadTransferFunction(const std::string& name) {
     return preint::readTransferFunction(name);
 }
 
+/// Mean length of a line's way through the box (four times volume over surface), scaled so that a cube has its
+/// diagonal. A thin plate or a long rod is as opaque as a cube then, where the diagonal would leave it clear.
+double thickness(const mesh::BoundingBox& box) {
+    const glm::dvec3 size = box.high - box.low;
+    const double longest = std::max({size.x, size.y, size.z});
+    const glm::dvec3 part = size / longest;
+    const double surface = part.x * part.y + part.y * part.z + part.z * part.x;
+    return surface > 0.0 ? 3.0 * std::numbers::sqrt3 * longest * part.x * part.y * part.z / surface : box.diagonal();
+}
+
 /// What "per extent" in a transfer function means for this mode (preint::TransferFunction::extinctionPerExtent).
 double extentOf(const mesh::ScalarMesh& mesh, projection::Mode mode) {
     return projection::integralOf(mode) == preint::Integral::ScaleInvariant ? mesh.scalarMax - mesh.scalarMin
-                                                                            : mesh.bounds.diagonal();
+                                                                            : thickness(mesh.bounds);
 }
 
 projection::Camera cameraFor(const RenderOptions& options, const mesh::BoundingBox& bounds) {
@@ -59,7 +80,8 @@ projection::Camera cameraFor(const RenderOptions& options, const mesh::BoundingB
 
 }  // namespace
 
-SceneRenderer::SceneRenderer(const RenderOptions& options) : background_(options.background) {
+SceneRenderer::SceneRenderer(const RenderOptions& options)
+    : background_(options.background), verifiedPixels_(options.verifiedPixels) {
     readScene(options);
     const Stopwatch watch;
     record_.camera = cameraFor(options, scene_.mesh->bounds);
@@ -98,6 +120,9 @@ projection::Image SceneRenderer::render(double turn) {
     projection::Image image = engine_->render(camera, report);
     report.frameMilliseconds = watch.milliseconds();
     record_.frames.push_back(std::move(report));
+    if (verifiedPixels_ > 0 && !record_.verification)
+        record_.verification =
+            projection::verifyImage(image, scene_, camera, static_cast<std::size_t>(verifiedPixels_), verificationSeed);
     if (background_) projection::putUnder(image, *background_);
     return image;
 }

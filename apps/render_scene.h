@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <apps/render_options.h>
 #include <mesh/mesh_report.h>
 #include <projection/engine.h>
+#include <projection/verification.h>
 
 namespace tetralux::apps {
 
@@ -25,6 +27,7 @@ struct RenderRecord {
     double readMilliseconds = 0.0;
     double prepareMilliseconds = 0.0;
     std::vector<projection::FrameReport> frames;
+    std::optional<projection::Verification> verification;  ///< of the first frame, if asked for
 };
 
 class SceneRenderer {
@@ -44,6 +47,7 @@ private:
 
     projection::Scene scene_;
     std::optional<glm::vec3> background_;
+    int verifiedPixels_ = 0;
     std::unique_ptr<projection::Engine> engine_;
     RenderRecord record_;
 };

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include <apps/commands.h>
+#include <apps/mesh_command.h>
 
 namespace {
 
@@ -17,7 +18,9 @@ constexpr int badInput = 2;
 
 constexpr void (*commands[])(CLI::App&, Command&) = {
     tetralux::apps::addRenderCommand,
+    tetralux::apps::addMeshCommand,
     tetralux::apps::addInfoCommand,
+    tetralux::apps::addBenchCommand,
     tetralux::apps::addCompareCommand,
 };
 

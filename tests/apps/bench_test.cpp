@@ -98,7 +98,7 @@ TEST(TransferFunctions, CoverTheRangeInEitherIntegral) {
 }
 
 TEST(TransferFunctions, SparseShowsOneCellInTwenty) {
-    const auto mesh = readBenchMesh("bucky:12");
+    const auto mesh = readBenchMesh("bucky:24");
     const preint::TransferFunction function = benchTransferFunction("sparse", *mesh, projection::Mode::Standard);
     std::size_t shown = 0;
     for (mesh::CellIndex cell = 0; cell < mesh->cells.size(); ++cell) {

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// tetralux-bench-kernels: what the stages of a frame are made of, one by one (Google Benchmark). Arguments are grid
+// sizes N of `bucky:N` or texels of a table's axis.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include <apps/bench_scene.h>
+#include <mesh/adjacency.h>
+#include <preint/exact_integral.h>
+#include <preint/preintegration_table.h>
+#include <projection/cell_setup.h>
+#include <projection/engine.h>
+#include <projection/power_order.h>
+#include <projection/visibility_order.h>
+
+namespace tetralux::apps {
+namespace {
+
+constexpr glm::ivec2 imageSize{512, 512};
+
+const std::shared_ptr<const mesh::ScalarMesh>& buckyOf(int n) {
+    static std::map<int, std::shared_ptr<const mesh::ScalarMesh>> meshes;
+    auto& mesh = meshes[n];
+    if (!mesh) mesh = readBenchMesh("bucky:" + std::to_string(n));
+    return mesh;
+}
+
+projection::CameraFrame frameOf(const mesh::ScalarMesh& mesh, int frame) {
+    return projection::cameraFrame(benchCamera(mesh.bounds, imageSize, frame));
+}
+
+void countCells(benchmark::State& state, std::size_t cells) {
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(cells));
+}
+
+void cellSetup(benchmark::State& state) {
+    const auto& mesh = *buckyOf(static_cast<int>(state.range(0)));
+    const projection::CellProjector projector(mesh, projection::sceneUnits(mesh), frameOf(mesh, 0));
+    for (auto _ : state) {
+        for (mesh::CellIndex cell = 0; cell < mesh.cells.size(); ++cell) {
+            projection::PixelRect rect{};
+            if (projector.bounds(cell, rect) != projection::SkipReason::None) continue;
+            benchmark::DoNotOptimize(projector.record(cell, rect));
+        }
+    }
+    countCells(state, mesh.cells.size());
+}
+BENCHMARK(cellSetup)->Arg(32)->Unit(benchmark::kMillisecond);
+
+/// All of a frame's visibility order, camera moved.
+void visibilityOrder(benchmark::State& state) {
+    const auto& mesh = *buckyOf(static_cast<int>(state.range(0)));
+    const projection::VisibilitySorter sorter(mesh);
+    int frame = 0;
+    for (auto _ : state) benchmark::DoNotOptimize(sorter.sort(frameOf(mesh, ++frame)));
+    countCells(state, mesh.cells.size());
+}
+BENCHMARK(visibilityOrder)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// What can be known of the order before there is a camera.
+void orderCertificate(benchmark::State& state) {
+    const auto& mesh = *buckyOf(static_cast<int>(state.range(0)));
+    const mesh::Adjacency adjacency = mesh::buildAdjacency(mesh.cells, mesh.positions.size());
+    for (auto _ : state) benchmark::DoNotOptimize(projection::PowerOrder(mesh, adjacency));
+    countCells(state, mesh.cells.size());
+}
+BENCHMARK(orderCertificate)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void adjacency(benchmark::State& state) {
+    const auto& mesh = *buckyOf(static_cast<int>(state.range(0)));
+    for (auto _ : state) benchmark::DoNotOptimize(mesh::buildAdjacency(mesh.cells, mesh.positions.size()));
+    countCells(state, mesh.cells.size());
+}
+BENCHMARK(adjacency)->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void radixSort(benchmark::State& state) {
+    std::vector<projection::KeyedCell> unsorted(static_cast<std::size_t>(state.range(0))), cells, scratch;
+    std::mt19937 random(1);
+    for (std::size_t i = 0; i < unsorted.size(); ++i)
+        unsorted[i] = {static_cast<std::uint32_t>(random()), static_cast<mesh::CellIndex>(i)};
+    for (auto _ : state) {
+        state.PauseTiming();
+        cells = unsorted;
+        state.ResumeTiming();
+        projection::radixSort(cells, scratch);
+    }
+    countCells(state, unsorted.size());
+}
+BENCHMARK(radixSort)->Arg(150'000)->Arg(5'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+struct Segment {
+    double front, back, length;
+};
+
+/// As cells of `bucky:32` give them: short, anywhere in the range.
+std::vector<Segment> someSegments() {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> scalar(0.0, 1.0), change(-0.1, 0.1), length(0.0, 0.05);
+    std::vector<Segment> segments(4096);
+    for (Segment& segment : segments) {
+        segment.front = scalar(random);
+        segment.back = std::clamp(segment.front + change(random), 0.0, 1.0);
+        segment.length = length(random);
+    }
+    return segments;
+}
+
+preint::ExactIntegral exactOf(const char* function, projection::Mode mode) {
+    return preint::ExactIntegral(benchTransferFunction(function, *buckyOf(32), mode));
+}
+
+void exactIntegral(benchmark::State& state, preint::Integral integral) {
+    const preint::ExactIntegral exact = exactOf("smooth", projection::Mode::Standard);
+    const std::vector<Segment> segments = someSegments();
+    for (auto _ : state)
+        for (const Segment& s : segments) benchmark::DoNotOptimize(exact.segment(s.front, s.back, s.length, integral));
+    countCells(state, segments.size());
+}
+BENCHMARK_CAPTURE(exactIntegral, standard, preint::Integral::Standard);
+BENCHMARK_CAPTURE(exactIntegral, scaleInvariant, preint::Integral::ScaleInvariant);
+
+/// The double-precision look-up that the judge of tables uses.
+void tableLookUp(benchmark::State& state) {
+    const preint::ExactIntegral exact = exactOf("smooth", projection::Mode::Standard);
+    const preint::PreintegrationTable table = preint::buildStandardTable(exact, 0.0, 1.0, 0.05, {});
+    const std::vector<Segment> segments = someSegments();
+    for (auto _ : state)
+        for (const Segment& s : segments)
+            benchmark::DoNotOptimize(preint::lookUpSegment(table, s.front, s.back, s.length));
+    countCells(state, segments.size());
+}
+BENCHMARK(tableLookUp);
+
+void countTexels(benchmark::State& state, std::size_t texels, double error) {
+    countCells(state, texels);
+    state.counters["error"] = error;
+}
+
+void scaleInvariantTable(benchmark::State& state) {
+    const preint::ExactIntegral exact = exactOf("smooth", projection::Mode::ScaleInvariant);
+    preint::PreintegrationTable table;
+    for (auto _ : state)
+        table = preint::buildScaleInvariantTable(exact, 0.0, 1.0, {.size = static_cast<int>(state.range(0))});
+    countTexels(state, table.texels.size(), table.measuredError);
+}
+BENCHMARK(scaleInvariantTable)->Arg(64)->Arg(256)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void standardTable(benchmark::State& state) {
+    const preint::ExactIntegral exact = exactOf("smooth", projection::Mode::Standard);
+    preint::PreintegrationTable table;
+    for (auto _ : state)
+        table = preint::buildStandardTable(exact, 0.0, 1.0, 0.05, {.size = static_cast<int>(state.range(0))});
+    countTexels(state, table.texels.size(), table.measuredError);
+}
+BENCHMARK(standardTable)->Arg(64)->Arg(256)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// A whole frame of an engine, camera moved.
+void wholeFrame(benchmark::State& state, const std::string& engineName) {
+    const auto mesh = buckyOf(static_cast<int>(state.range(0)));
+    const projection::Scene scene{
+        .mesh = mesh,
+        .transferFunction = benchTransferFunction("smooth", *mesh, projection::Mode::Standard),
+        .settings = {}};
+    std::unique_ptr<projection::Engine> engine;
+    try {
+        engine = projection::makeEngine(scene, {.engine = engineName});
+    } catch (const std::exception& error) {
+        state.SkipWithError(error.what());
+        return;
+    }
+    int frame = 0;
+    for (auto _ : state) {
+        projection::FrameReport report;
+        benchmark::DoNotOptimize(engine->render(benchCamera(mesh->bounds, imageSize, ++frame), report));
+    }
+    countCells(state, mesh->cells.size());
+}
+
+}  // namespace
+}  // namespace tetralux::apps
+
+int main(int argumentCount, char** arguments) {
+    for (const std::string& engine : tetralux::projection::engineNames()) {
+        if (engine == "reference") continue;
+        benchmark::RegisterBenchmark(("wholeFrame/" + engine).c_str(), tetralux::apps::wholeFrame, engine)
+            ->Arg(32)
+            ->Unit(benchmark::kMillisecond)
+            ->UseRealTime();
+    }
+    benchmark::Initialize(&argumentCount, arguments);
+    if (benchmark::ReportUnrecognizedArguments(argumentCount, arguments)) return 2;
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}

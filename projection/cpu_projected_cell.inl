@@ -57,10 +57,12 @@ TETRALUX_CELL_FUNCTION CellForms<R> cellForms(const Triple<R>& a, const Triple<R
     forms.normal[0] = {-(n1.x + n2.x + n3.x), -(n1.y + n2.y + n3.y), -(n1.z + n2.z + n3.z)};
     forms.determinant = dot(forms.ab, n1);
     // outward faces of a positive cell are b c d, a d c, a b d, a c b: corners in ascending order make every other one negative
-    forms.eye[0] = faceSide<R, Orthographic>(b, c - b, d - b);
-    forms.eye[1] = -faceSide<R, Orthographic>(a, forms.ac, forms.ad);
-    forms.eye[2] = faceSide<R, Orthographic>(a, forms.ab, forms.ad);
-    forms.eye[3] = -faceSide<R, Orthographic>(a, forms.ab, forms.ac);
+    // sums with 0 so that a face seen edge-on has +0: whoever compares with 0 and whoever copies the sign must agree
+    const R zero(0.0);
+    forms.eye[0] = zero + faceSide<R, Orthographic>(b, c - b, d - b);
+    forms.eye[1] = zero - faceSide<R, Orthographic>(a, forms.ac, forms.ad);
+    forms.eye[2] = zero + faceSide<R, Orthographic>(a, forms.ab, forms.ad);
+    forms.eye[3] = zero - faceSide<R, Orthographic>(a, forms.ab, forms.ac);
     return forms;
 }
 

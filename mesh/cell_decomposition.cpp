@@ -15,14 +15,18 @@
 namespace tetralux::mesh {
 namespace {
 
-/// The tetrahedron of points[at], …, turned round if need be. \returns Good, Inverted or Flat.
+/// The tetrahedron of points[at], …, turned round if need be. \returns Good, Inverted, Flat or NonFinitePosition.
 CellVerdict orientTetrahedron(const CellSoup& soup, std::uint64_t at, Tetrahedron& cell) {
     std::copy_n(soup.connectivity.begin() + static_cast<std::ptrdiff_t>(at), 4, cell.begin());
     const int side = orientation(soup.points[cell[0]], soup.points[cell[1]], soup.points[cell[2]], soup.points[cell[3]]);
     if (side < 0) {
         std::swap(cell[2], cell[3]);
     }
-    return side > 0 ? CellVerdict::Good : side < 0 ? CellVerdict::Inverted : CellVerdict::Flat;
+    if (side == 0) {
+        const bool finite = std::all_of(cell.begin(), cell.end(), [&](PointIndex p) { return isFinitePosition(soup.points[p]); });
+        return finite ? CellVerdict::Flat : CellVerdict::NonFinitePosition;
+    }
+    return side > 0 ? CellVerdict::Good : CellVerdict::Inverted;
 }
 
 /// A mesh of nothing but tetrahedra needs no lists in between.

@@ -5,34 +5,28 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <unordered_map>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <mesh/vertex_buckets.h>
+#include <mesh/hash_collisions.h>
+#include <mesh/orientation.h>
 
 namespace tetralux::mesh {
 namespace {
 
 using Representatives = std::vector<std::uint32_t>;  ///< the point that stands for each point
 
-bool isFinite(const glm::dvec3& x) { return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z); }
-
-std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
-    hash = (hash ^ value) * 0x9e3779b97f4a7c15ull;
-    return hash ^ hash >> 29;
-}
-
 std::uint64_t positionHash(const glm::dvec3& x) {
-    std::uint64_t hash = 0;
+    std::uint64_t hash = 1;
     for (const double c : {x.x, x.y, x.z}) {
         hash = mixed(hash, std::bit_cast<std::uint64_t>(c + 0.0));  // −0 and 0 are one place
     }
-    return mixed(hash, hash >> 32);
+    return hash;
 }
 
 bool sameValues(const CellSoup& soup, std::size_t a, std::size_t b) {
@@ -54,41 +48,41 @@ bool sameValues(const CellSoup& soup, std::size_t a, std::size_t b) {
 
 struct ExactSearch {
     Representatives representatives;
-    std::vector<std::uint8_t> jumps;  ///< 1 for a point that shares its position, not its values, with an earlier one
+    std::vector<std::uint32_t> jumps;  ///< points that stand for themselves though an earlier one has their position
 };
 
-/// Buckets by hash of the position; within a bucket every point is compared with the earlier ones that stand for others.
+/// Within a run of equal hashes every point is compared with the earlier ones that stand for others.
 ExactSearch findEqualPoints(const CellSoup& soup) {
-    const std::size_t count = soup.points.size();
-    const std::size_t buckets = std::bit_ceil(std::max<std::size_t>(count, 1));
-    const VertexBuckets<std::uint32_t> places(
-        count, buckets, [&](std::size_t p) { return positionHash(soup.points[p]) & (buckets - 1); });
-    ExactSearch found{Representatives(count), std::vector<std::uint8_t>(count, 0)};
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, buckets, 4096), [&](const tbb::blocked_range<std::size_t>& range) {
-        std::vector<std::uint32_t> bucket;
-        for (std::size_t b = range.begin(); b != range.end(); ++b) {
-            bucket.clear();
-            for (std::size_t slot = places.begin(b); slot < places.end(b); ++slot) {
-                bucket.push_back(places.item(slot));
-            }
-            std::sort(bucket.begin(), bucket.end());
-            std::size_t standing = 0;  // bucket[0 … standing) stand for themselves
-            for (const std::uint32_t p : bucket) {
-                std::uint32_t representative = p;
-                for (std::size_t i = 0; i < standing && representative == p; ++i) {
-                    if (soup.points[bucket[i]] == soup.points[p]) {
-                        const bool same = sameValues(soup, bucket[i], p);
-                        representative = same ? bucket[i] : p;
-                        found.jumps[p] = same ? found.jumps[bucket[i]] : 1;
+    ExactSearch found{Representatives(soup.points.size()), {}};
+    std::iota(found.representatives.begin(), found.representatives.end(), 0u);
+    const std::size_t places = std::bit_ceil(std::max<std::size_t>(16 * soup.points.size(), 64));
+    const auto candidates = collisionCandidates(
+        soup.points.size(), [&](std::size_t p) { return positionHash(soup.points[p]); }, places,
+        [&](std::size_t, std::uint64_t hash) { return hash & (places - 1); });
+    std::vector<std::uint32_t> standing;
+    forEachRun(candidates, [&](std::size_t first, std::size_t last) {
+        standing.clear();
+        for (std::size_t i = first; i < last; ++i) {
+            const std::uint32_t p = candidates[i].second;
+            bool jumps = false;
+            for (const std::uint32_t earlier : standing) {
+                if (soup.points[earlier] == soup.points[p]) {
+                    if (sameValues(soup, earlier, p)) {
+                        found.representatives[p] = earlier;
+                        break;
                     }
+                    jumps = true;
                 }
-                found.representatives[p] = representative;
-                if (representative == p) {
-                    bucket[standing++] = p;
+            }
+            if (found.representatives[p] == p) {
+                standing.push_back(p);
+                if (jumps) {
+                    found.jumps.push_back(p);
                 }
             }
         }
     });
+    std::sort(found.jumps.begin(), found.jumps.end());
     return found;
 }
 
@@ -143,10 +137,8 @@ void renumberPolyhedra(CellSoup& soup, const Representatives& representatives) {
 
 Representatives searchExactly(const CellSoup& soup, MeshReport& report) {
     ExactSearch found = findEqualPoints(soup);
-    for (std::size_t p = 0; p < found.jumps.size(); ++p) {
-        if (found.jumps[p] != 0) {
-            report.add(Defect::CoincidentPoint, p);
-        }
+    for (const std::uint32_t p : found.jumps) {
+        report.add(Defect::CoincidentPoint, p);
     }
     return std::move(found.representatives);
 }
@@ -158,7 +150,7 @@ Representatives searchWithin(const CellSoup& soup, double tolerance, MeshReport&
     ToleranceGrid grid(soup, tolerance);
     Representatives representatives(soup.points.size());
     for (std::uint32_t p = 0; p < representatives.size(); ++p) {
-        representatives[p] = isFinite(soup.points[p]) ? grid.representativeOf(p) : p;
+        representatives[p] = isFinitePosition(soup.points[p]) ? grid.representativeOf(p) : p;
         if (representatives[p] != p) {
             report.add(Defect::CoincidentPoint, p);
         }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -14,6 +13,7 @@
 #include <tbb/parallel_for.h>
 
 #include <mesh/cell_types.h>
+#include <mesh/orientation.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -59,7 +59,7 @@ CellVerdict checkPoints(const CellSoup& soup, std::span<const std::uint32_t> poi
             return CellVerdict::IndexOutOfRange;
         }
         const glm::dvec3& x = soup.points[p];
-        if (!std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z)) {
+        if (!isFinitePosition(x)) {
             verdict = CellVerdict::NonFinitePosition;
         }
     }
@@ -82,11 +82,21 @@ CellVerdict checkPolyhedron(const CellSoup& soup, std::size_t cell) {
     return verdict;
 }
 
+/// Positions are left to decomposition, which looks at them anyway.
+CellVerdict checkTetrahedron(const CellSoup& soup, std::uint64_t at) {
+    const std::uint32_t* const p = soup.connectivity.data() + at;
+    const std::size_t last = std::max({p[0], p[1], p[2], p[3]});
+    return last < soup.points.size() ? CellVerdict::Good : CellVerdict::IndexOutOfRange;
+}
+
 CellVerdict classifyCell(const CellSoup& soup, std::size_t cell) {
     if (!soup.hidden.empty() && soup.hidden[cell] != 0) {
         return CellVerdict::Hidden;
     }
     const std::uint8_t type = soup.types[cell];
+    if (type == cell_type::tetrahedron && soup.offsets[cell + 1] - soup.offsets[cell] == 4) {
+        return checkTetrahedron(soup, soup.offsets[cell]);
+    }
     const CellTypeInfo info = cellTypeInfo(type);
     if (info.dimension >= 0 && info.dimension < 3) {
         return CellVerdict::LowDimension;

@@ -29,8 +29,8 @@ inline bool isKept(CellVerdict verdict) { return verdict <= CellVerdict::Folded;
 /// \throws std::runtime_error saying which does not.
 void checkStructure(const CellSoup& soup);
 
-/// A verdict for each cell from its type and point numbers and positions (not yet Inverted, Folded or Flat), in
-/// parallel. Needs `checkStructure`.
+/// A verdict for each cell from its type and point numbers, and for all but tetrahedra from its positions (not yet Inverted, Folded
+/// or Flat), in parallel. Needs `checkStructure`.
 std::vector<CellVerdict> classifyCells(const CellSoup& soup);
 
 /// Counts cells, their types and their verdicts into `report`.

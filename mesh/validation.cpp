@@ -163,7 +163,11 @@ ReadResult tetMeshFromSoup(CellSoup soup, const ReadOptions& options) {
     checkStructure(soup);
     ReadResult result;
     result.times = std::move(soup.times);
+    const std::size_t sourcePoints = soup.points.size();
     Decomposition decomposition = decompose(soup, options, result.report);
+    // The common case, a sound mesh of tetrahedra, is spared the search.
+    const bool mayHaveUnusedPoints = !decomposition.parents.empty() || sourcePoints != soup.points.size() ||
+                                     result.report.pointsMerged > 0 || result.report.defects.contains(Defect::UnusedPoint);
     soup.types = {};
     soup.offsets = {};
     soup.connectivity = {};
@@ -179,7 +183,9 @@ ReadResult tetMeshFromSoup(CellSoup soup, const ReadOptions& options) {
         }
     }
     result.mesh = {std::move(soup.points), std::move(decomposition.cells), std::move(soup.fields)};
-    dropUnusedPoints(result.mesh);
+    if (mayHaveUnusedPoints) {
+        dropUnusedPoints(result.mesh);
+    }
     return result;
 }
 

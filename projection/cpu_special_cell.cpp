@@ -91,7 +91,7 @@ void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int
     const auto cell = projectCell<double, false>(forms, reference, s);
     std::uint32_t fronts = 0;
     for (std::size_t k = 0; k < 4; ++k) {
-        fronts |= (odd ? -forms.eye[k] : forms.eye[k]) < 0 ? 1u << k : 0u;
+        fronts |= (forms.eye[k] < 0) != odd ? 1u << k : 0u;  // as the plane's sign was taken, also where it is 0
         for (std::size_t i = 0; i < 3; ++i) batch.plane[k][i][j] = static_cast<float>(cell.plane[k][i]);
     }
     batch.frontMask[j] = fronts;

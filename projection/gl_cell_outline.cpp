@@ -74,8 +74,8 @@ CellOutline cellOutline(const Corners& corners, double margin) {
     // Twice the projected area of each face, signed; the four sum to zero, so the hull is the union of the faces of
     // positive sign: one face, or two that share an edge, or all but one.
     std::array<double, 4> area;
-    std::array<std::size_t, 4> positive, other;
-    std::size_t positives = 0, others = 0;
+    std::array<std::size_t, 4> positive, negative;
+    std::size_t positives = 0, negatives = 0;
     for (std::size_t k = 0; k < 4; ++k) {
         const auto& face = mesh::faceVertices[k];
         const glm::dvec2 &a = corners[static_cast<std::size_t>(face[0])], &b = corners[static_cast<std::size_t>(face[1])],
@@ -84,20 +84,23 @@ CellOutline cellOutline(const Corners& corners, double margin) {
         if (area[k] > 0) {
             positive[positives++] = k;
         } else {
-            other[others++] = k;
+            negative[negatives++] = k;
         }
     }
     Corners hull;
     std::size_t count = 3;
     if (positives == 1 || positives == 3) {
-        const std::size_t face = positives == 1 ? positive[0] : other[0];
+        const std::size_t face = positives == 1 ? positive[0] : negative[0];
         for (std::size_t i = 0; i < 3; ++i) hull[i] = corners[static_cast<std::size_t>(mesh::faceVertices[face][i])];
         if (positives == 3) std::swap(hull[1], hull[2]);  // that face shows its back: turn it counter-clockwise
     } else if (positives == 2) {
         // the positive faces are opposite `positive[0]` and `positive[1]` and share the edge of the other two corners
-        hull = {corners[positive[0]], corners[other[0]], corners[positive[1]], corners[other[1]]};
+        hull = {corners[positive[0]], corners[negative[0]], corners[positive[1]], corners[negative[1]]};
         if (cross(hull[2] - hull[0], hull[3] - hull[1]) < 0) std::swap(hull[1], hull[3]);
         count = 4;
+        // The two triangles of the quadrilateral meet along corners 0 and 2: a short seam shades fewer blocks of pixels twice.
+        const glm::dvec2 seam = hull[2] - hull[0], other = hull[3] - hull[1];
+        if (glm::dot(other, other) < glm::dot(seam, seam)) hull = {hull[1], hull[2], hull[3], hull[0]};
     } else {
         return boxOutline(corners, margin);
     }

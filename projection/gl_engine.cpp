@@ -179,18 +179,12 @@ void GlEngine::makeState() {
 }
 
 void GlEngine::findVisibleCells() {
-    const auto support = extinctionSupport(scene_.transferFunction);
-    const mesh::ScalarMesh& mesh = *scene_.mesh;
-    cellShows_.resize(mesh.cells.size());
-    tbb::parallel_for(tbb::blocked_range<mesh::CellIndex>(0, static_cast<mesh::CellIndex>(mesh.cells.size()), 4096),
+    const CellVisibility visibility(*scene_.mesh, scene_.transferFunction, scene_.settings);
+    cellShows_.resize(scene_.mesh->cells.size());
+    tbb::parallel_for(tbb::blocked_range<mesh::CellIndex>(0, static_cast<mesh::CellIndex>(cellShows_.size()), 4096),
                       [&](const auto& range) {
                           for (mesh::CellIndex cell = range.begin(); cell != range.end(); ++cell) {
-                              double low = mesh.scalarAt(cell, 0), high = low;
-                              for (int k = 1; k < 4; ++k) {
-                                  low = std::min(low, mesh.scalarAt(cell, k));
-                                  high = std::max(high, mesh.scalarAt(cell, k));
-                              }
-                              cellShows_[cell] = rangeShows(scene_.transferFunction, support, low, high, integralOf(mode()));
+                              cellShows_[cell] = visibility.shows(cell);
                           }
                       });
 }

@@ -2,10 +2,28 @@
 #include <projection/transfer_support.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include <glm/geometric.hpp>
 
 namespace tetralux::projection {
 namespace {
+
+/// Half the step of float at 1.
+constexpr double leastOpacity = 0x1p-25;
+
+/// Edge of the cell that no segment in it can exceed, mesh units.
+double longestEdge(const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {
+    double squared = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t j = i + 1; j < 4; ++j) {
+            const glm::dvec3 edge = mesh.positions[mesh.cells[cell][j]] - mesh.positions[mesh.cells[cell][i]];
+            squared = std::max(squared, glm::dot(edge, edge));
+        }
+    }
+    return std::sqrt(squared);
+}
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -47,6 +65,27 @@ bool rangeShows(const preint::TransferFunction& function, const std::vector<glm:
     return std::any_of(function.isosurfaces.begin(), function.isosurfaces.end(), [&](const preint::Isosurface& surface) {
         return surface.opacity > 0 && low < surface.value && surface.value <= high;
     });
+}
+
+CellVisibility::CellVisibility(const mesh::ScalarMesh& mesh, const preint::TransferFunction& function,
+                               const RenderSettings& settings)
+    : mesh_(mesh),
+      integral_(integralOf(settings.mode)),
+      exact_(function),
+      support_(extinctionSupport(function)),
+      leastDepth_(settings.mode == Mode::FirstHit || settings.shading.silhouette ? 0.0 : leastOpacity) {}
+
+bool CellVisibility::shows(mesh::CellIndex cell) const {
+    double low = mesh_.scalarAt(cell, 0), high = low;
+    for (int k = 1; k < 4; ++k) {
+        low = std::min(low, mesh_.scalarAt(cell, k));
+        high = std::max(high, mesh_.scalarAt(cell, k));
+    }
+    if (!rangeShows(exact_.function(), support_, low, high, integral_)) return false;
+    const auto& surfaces = exact_.function().isosurfaces;
+    if (std::any_of(surfaces.begin(), surfaces.end(), [&](const auto& s) { return low < s.value && s.value <= high; })) return true;
+    const double extent = integral_ == preint::Integral::ScaleInvariant ? high - low : longestEdge(mesh_, cell);
+    return exact_.largestExtinction(low, high) * extent > leastDepth_;
 }
 
 }  // namespace tetralux::projection

@@ -9,6 +9,7 @@
 
 #include <preint/exact_integral.h>
 #include <preint/transfer_function.h>
+#include <projection/scene.h>
 
 namespace tetralux::projection {
 
@@ -19,5 +20,22 @@ std::vector<glm::dvec2> extinctionSupport(const preint::TransferFunction& functi
 /// Whether segments with scalars within [low, high] can have opacity.
 bool rangeShows(const preint::TransferFunction& function, const std::vector<glm::dvec2>& support, double low, double high,
                 preint::Integral integral);
+
+/// Which cells of a mesh show anything at all.
+class CellVisibility {
+public:
+    CellVisibility(const mesh::ScalarMesh& mesh, const preint::TransferFunction& function, const RenderSettings& settings);
+
+    /// False where the cell's opacity is zero or, but in first-hit mode and with silhouettes, which take any opacity for something, at most
+    /// half of float's step at 1 along any ray: it would change no opaque pixel, and others by less than float's own error.
+    bool shows(mesh::CellIndex cell) const;
+
+private:
+    const mesh::ScalarMesh& mesh_;
+    preint::Integral integral_;
+    preint::ExactIntegral exact_;
+    std::vector<glm::dvec2> support_;
+    double leastDepth_;
+};
 
 }  // namespace tetralux::projection

@@ -5,6 +5,7 @@ pkg_check_modules(Highway REQUIRED IMPORTED_TARGET libhwy)
 target_sources(tetralux_projection PRIVATE
   cpu_bins.cpp
   cpu_cull.cpp
+  cpu_cull_kernel.cpp
   cpu_engine.cpp
   cpu_order.cpp
   cpu_special_cell.cpp
@@ -14,5 +15,5 @@ target_sources(tetralux_projection PRIVATE
 target_link_libraries(tetralux_projection PRIVATE PkgConfig::Highway)
 # The least that vectors of four need; Highway's portable form has one lane.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  set_source_files_properties(cpu_tile_kernel.cpp PROPERTIES COMPILE_OPTIONS "-msse4.2;-maes;-mpclmul")
+  set_source_files_properties(cpu_cull_kernel.cpp cpu_tile_kernel.cpp PROPERTIES COMPILE_OPTIONS "-msse4.2;-maes;-mpclmul")
 endif()

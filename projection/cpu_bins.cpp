@@ -13,37 +13,32 @@
 
 namespace tetralux::projection {
 
-void TileBins::fill(const std::vector<Survivor>& survivors, const std::vector<SurvivorChunk>& chunks, int tilesX, int tilesY,
-                    double nearest, double farthest) {
-    const std::size_t tiles = static_cast<std::size_t>(tilesX) * static_cast<std::size_t>(tilesY);
-    auto forTiles = [&](const Survivor& survivor, auto action) {
-        for (std::size_t y = survivor.y0; y <= survivor.y1; ++y)
-            for (std::size_t x = survivor.x0; x <= survivor.x1; ++x) action(y * static_cast<std::size_t>(tilesX) + x);
-    };
-    places_.resize(chunks.size() * tiles);
-    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
-        std::uint64_t* places = places_.data() + c * tiles;
-        std::fill_n(places, tiles, 0);
-        for (std::size_t i = chunks[c].begin; i < chunks[c].begin + chunks[c].count; ++i)
-            forTiles(survivors[i], [&](std::size_t tile) { ++places[tile]; });
+void TileBins::reset(std::size_t chunks, int tilesX, int tilesY) {
+    tilesX_ = static_cast<std::size_t>(tilesX);
+    tiles_ = tilesX_ * static_cast<std::size_t>(tilesY);
+    places_.resize(chunks * tiles_);
+    tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) { std::fill_n(counts(c), tiles_, 0u); });
+}
+
+void TileBins::fill(const std::vector<Survivor>& survivors, const std::vector<SurvivorChunk>& chunks, double nearest,
+                    double farthest) {
+    start_.resize(tiles_ + 1);
+    tbb::parallel_for(std::size_t{0}, tiles_, [&](std::size_t tile) {
+        std::uint32_t sum = 0;
+        for (std::size_t c = 0; c < chunks.size(); ++c) sum += std::exchange(places_[c * tiles_ + tile], sum);
+        start_[tile + 1] = sum;
     });
-    start_.assign(tiles + 1, 0);
-    std::uint64_t total = 0;
-    for (std::size_t tile = 0; tile < tiles; ++tile) {
-        start_[tile] = total;
-        for (std::size_t c = 0; c < chunks.size(); ++c) {
-            const std::uint64_t count = places_[c * tiles + tile];
-            places_[c * tiles + tile] = total;
-            total += count;
-        }
-    }
-    start_[tiles] = total;
-    entries_.resize(total);
+    start_[0] = 0;
+    for (std::size_t tile = 0; tile < tiles_; ++tile) start_[tile + 1] += start_[tile];
+    entries_.resize(start_[tiles_]);
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
-        std::uint64_t* places = places_.data() + c * tiles;
+        std::uint32_t* places = counts(c);
         for (std::size_t i = chunks[c].begin; i < chunks[c].begin + chunks[c].count; ++i) {
-            const TileEntry entry{orderedKey(survivors[i].key, nearest, farthest), survivors[i].cell};
-            forTiles(survivors[i], [&](std::size_t tile) { entries_[places[tile]++] = entry; });
+            const Survivor& survivor = survivors[i];
+            const TileEntry entry{orderedKey(survivor.key, nearest, farthest), survivor.cell};
+            for (std::size_t y = survivor.y0; y <= survivor.y1; ++y)
+                for (std::size_t tile = y * tilesX_ + survivor.x0; tile <= y * tilesX_ + survivor.x1; ++tile)
+                    entries_[start_[tile] + places[tile]++] = entry;
         }
     });
 }

@@ -5,7 +5,10 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
+
+#include <glm/vec4.hpp>
 
 #include <projection/cpu_tile.h>
 
@@ -20,14 +23,36 @@ struct Survivor {
 
 struct CullCounts {
     std::uint64_t outsideView = 0, noPixelCentre = 0;
+    double nearest = -std::numeric_limits<double>::infinity(), farthest = -nearest;  ///< largest and smallest key
+};
+
+/// Where the keys of a frame come from: the value at `eye` of a linear function per cell, or the cell's place counted from the front; neither: all
+/// keys are 0.
+struct KeySource {
+    const glm::dvec4* planes = nullptr;
+    glm::dvec4 eye{0};
+    const std::uint32_t* places = nullptr;
+
+    double keyOf(mesh::CellIndex cell) const {
+        if (planes) return planes[cell].x * eye.x + planes[cell].y * eye.y + planes[cell].z * eye.z + planes[cell].w * eye.w;
+        return places ? -static_cast<double>(places[cell]) : 0.0;
+    }
 };
 
 /// Points of the mesh before a camera. `points` keeps its memory.
 void projectPoints(const mesh::ScalarMesh& mesh, const SceneUnits& units, const CameraFrame& frame, std::vector<CpuPoint>& points);
 
-/// Cells that can be seen go to `survivors` in order, without key; their number.
-/// `visible`: the cells that the transfer function shows, of which those from `begin` to `end` are asked for; nullptr: all cells.
-std::size_t cullCells(const TileFrame& frame, const mesh::CellIndex* visible, std::size_t begin, std::size_t end,
-                      Survivor* survivors, CullCounts& counts);
+/// What cullCells reads and where it writes.
+struct CullTask {
+    const mesh::CellIndex* visible;  ///< the cells that the transfer function shows; nullptr: all
+    std::size_t begin, end;          ///< of `visible`, or of all cells
+    KeySource keys;
+    Survivor* survivors;             ///< room for end − begin
+    int tilesX;
+    std::uint32_t* tileCounts;       ///< one more for each tile that a survivor meets
+};
+
+/// Cells that can be seen, in order; their number.
+std::size_t cullCells(const TileFrame& frame, const CullTask& task, CullCounts& counts);
 
 }  // namespace tetralux::projection

@@ -80,7 +80,7 @@ private:
     bool ordered() const { return !(frame_.kind == TileKind::Mip || frame_.kind == TileKind::Average || frame_.kind == TileKind::Absorption); }
     void makeLists(const Camera& camera, FrameReport& report);
     void setFrame(const CameraFrame& frame);
-    void cull(std::size_t tiles);
+    CullCounts cull();
     void draw(Image& image, FrameReport& report);
     void sortTilesByWork();
 
@@ -202,16 +202,14 @@ void CpuEngine::makeLists(const Camera& camera, FrameReport& report) {
 
     tilesX_ = (frame.width + cpuTileSize - 1) / cpuTileSize;
     tilesY_ = (frame.height + cpuTileSize - 1) / cpuTileSize;
-    cull(static_cast<std::size_t>(tilesX_) * static_cast<std::size_t>(tilesY_));
-    finish("cull");
-
     order_ = {};
-    order_.method = "none";
     if (frame_.ordered) {
-        order_ = orderKeys_->assignKeys(frame, chunks_, survivors_);
+        order_ = orderKeys_->orderOf(frame);
         finish("sort");
     }
-    bins_.fill(survivors_, chunks_, tilesX_, tilesY_, order_.nearest, order_.farthest);
+    const CullCounts counts = cull();
+    finish("cull");
+    bins_.fill(survivors_, chunks_, counts.nearest, counts.farthest);
     sortTilesByWork();
     finish("bin");
     if (frame_.ordered) {
@@ -221,17 +219,21 @@ void CpuEngine::makeLists(const Camera& camera, FrameReport& report) {
     }
 }
 
-void CpuEngine::cull(std::size_t tiles) {
+CullCounts CpuEngine::cull() {
     const std::size_t candidates = allVisible_ ? mesh_.cells.size() : visible_.size();
+    const std::size_t tiles = static_cast<std::size_t>(tilesX_) * static_cast<std::size_t>(tilesY_);
     const std::size_t chunkSize =
         std::max({leastChunk, std::min(usualChunk, candidates / 64), candidates * tiles / mostPlaces + 1});
     const std::size_t chunkCount = (candidates + chunkSize - 1) / chunkSize;
     survivors_.resize(candidates);
     chunks_.resize(chunkCount);
+    bins_.reset(chunkCount, tilesX_, tilesY_);
     std::vector<CullCounts> counts(chunkCount);
     tbb::parallel_for(std::size_t{0}, chunkCount, [&](std::size_t c) {
         const std::size_t begin = c * chunkSize, end = std::min(candidates, begin + chunkSize);
-        chunks_[c] = {begin, cullCells(frame_, allVisible_ ? nullptr : visible_.data(), begin, end, survivors_.data() + begin, counts[c])};
+        const CullTask task{allVisible_ ? nullptr : visible_.data(), begin, end, order_.keys, survivors_.data() + begin, tilesX_,
+                            bins_.counts(c)};
+        chunks_[c] = {begin, cullCells(frame_, task, counts[c])};
     });
     cellsDrawn_ = 0;
     for (const auto& chunk : chunks_) cellsDrawn_ += chunk.count;
@@ -239,6 +241,8 @@ void CpuEngine::cull(std::size_t tiles) {
     for (const auto& count : counts) {
         sum.outsideView += count.outsideView;
         sum.noPixelCentre += count.noPixelCentre;
+        sum.nearest = std::max(sum.nearest, count.nearest);
+        sum.farthest = std::min(sum.farthest, count.farthest);
     }
     skipped_.clear();
     auto skip = [&](SkipReason reason, std::uint64_t cells) {
@@ -247,6 +251,7 @@ void CpuEngine::cull(std::size_t tiles) {
     skip(SkipReason::OutsideView, sum.outsideView);
     skip(SkipReason::NoPixelCentre, sum.noPixelCentre);
     skip(SkipReason::Invisible, mesh_.cells.size() - candidates);
+    return sum;
 }
 
 /// Longest lists first, so that no thread is left alone with one at the end.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <projection/cpu_order.h>
 
-#include <algorithm>
-#include <limits>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
@@ -43,44 +42,24 @@ void CpuOrder::buildPowerPlanes(const std::vector<double>& heights) {
     });
 }
 
-CpuFrameOrder CpuOrder::assignKeys(const CameraFrame& frame, const std::vector<SurvivorChunk>& chunks,
-                                   std::vector<Survivor>& survivors) const {
+CpuFrameOrder CpuOrder::orderOf(const CameraFrame& frame) const {
     CpuFrameOrder order;
-    std::vector<glm::dvec2> ranges(chunks.size());
-    auto assign = [&](auto keyOf) {
-        tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
-            double low = std::numeric_limits<double>::infinity(), high = -low;
-            for (std::size_t i = chunks[c].begin; i < chunks[c].begin + chunks[c].count; ++i) {
-                const double key = keyOf(survivors[i].cell);
-                survivors[i].key = key;
-                low = std::min(low, key);
-                high = std::max(high, key);
-            }
-            ranges[c] = {low, high};
-        });
-    };
     if (!powerPlanes_.empty()) {
         order.method = "power";
-        const double perLength = 1.0 / mesh_.bounds.diagonal();
-        const glm::dvec3 eye = frame.orthographic ? -frame.forward : (frame.eye - mesh_.bounds.centre()) * perLength;
-        const glm::dvec4 at(eye, frame.orthographic ? 0.0 : 1.0);
-        assign([&](mesh::CellIndex cell) { return glm::dot(powerPlanes_[cell], at); });
-    } else {
-        VisibilityOrder sorted = sorter_->sort(frame);
-        order.method = std::move(sorted.method);
-        order.cyclicCells = sorted.cyclicCells;
-        order.doubtfulPixels = std::move(sorted.doubtfulPixels);
-        // cells that the order leaves out lie behind the eye
-        std::vector<std::uint32_t> place(mesh_.cells.size(), static_cast<std::uint32_t>(mesh_.cells.size()));
-        for (std::uint32_t i = 0; i < sorted.frontToBack.size(); ++i) place[sorted.frontToBack[i]] = i;
-        assign([&](mesh::CellIndex cell) { return -static_cast<double>(place[cell]); });
+        order.keys.planes = powerPlanes_.data();
+        order.keys.eye = frame.orthographic
+                             ? glm::dvec4(-frame.forward, 0.0)
+                             : glm::dvec4((frame.eye - mesh_.bounds.centre()) / mesh_.bounds.diagonal(), 1.0);
+        return order;
     }
-    order.farthest = std::numeric_limits<double>::infinity();
-    order.nearest = -order.farthest;
-    for (const glm::dvec2& range : ranges) {
-        order.farthest = std::min(order.farthest, range.x);
-        order.nearest = std::max(order.nearest, range.y);
-    }
+    VisibilityOrder sorted = sorter_->sort(frame);
+    order.method = std::move(sorted.method);
+    order.cyclicCells = sorted.cyclicCells;
+    order.doubtfulPixels = std::move(sorted.doubtfulPixels);
+    // cells that the order leaves out lie behind the eye
+    order.places.assign(mesh_.cells.size(), static_cast<std::uint32_t>(mesh_.cells.size()));
+    for (std::uint32_t i = 0; i < sorted.frontToBack.size(); ++i) order.places[sorted.frontToBack[i]] = i;
+    order.keys.places = order.places.data();
     return order;
 }
 

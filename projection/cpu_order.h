@@ -10,17 +10,18 @@
 
 #include <glm/vec4.hpp>
 
-#include <projection/cpu_bins.h>
+#include <projection/cpu_cull.h>
 #include <projection/visibility_order.h>
 
 namespace tetralux::projection {
 
-/// What one frame's order is worth.
+/// What one frame's order is worth, and its keys.
 struct CpuFrameOrder {
-    std::string method;
+    std::string method = "none";
     std::uint64_t cyclicCells = 0;
     std::vector<std::uint32_t> doubtfulPixels;
-    double nearest = 0.0, farthest = 0.0;  ///< largest and smallest key given
+    KeySource keys;
+    std::vector<std::uint32_t> places;  ///< what `keys` points to, where there is no certificate
 };
 
 /// Keys of cells: by power (power_order.h) where a certificate holds, so that only what survived culling is sorted; else places
@@ -29,8 +30,7 @@ class CpuOrder {
 public:
     explicit CpuOrder(const mesh::ScalarMesh& mesh);
 
-    /// Writes the keys of the chunks' survivors.
-    CpuFrameOrder assignKeys(const CameraFrame& frame, const std::vector<SurvivorChunk>& chunks, std::vector<Survivor>& survivors) const;
+    CpuFrameOrder orderOf(const CameraFrame& frame) const;
 
 private:
     void buildPowerPlanes(const std::vector<double>& heights);

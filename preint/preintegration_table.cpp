@@ -158,9 +158,9 @@ public:
     SizeChooser(const ExactIntegral& exact, const TableOptions& options, double scalarMin, double scalarMax)
         : exact_(exact), options_(options), scalarMin_(scalarMin), scalarMax_(scalarMax) {}
 
-    /// Lays `table` out: the first of several ways that keeps the error, or the one that comes closest. Without cuts at kinks look-up
-    /// does least, but the table must be large; with them it is small, and look-up is hardly slower (a few per cent of a frame
-    /// on llvmpipe).
+    /// Lays `table` out: the first of several ways that keeps the error, or the one that comes closest. Even texels make look-up
+    /// cheapest; warp and ramps, or cuts at kinks, each double the time of a frame on llvmpipe (bucky ball of 149k cells, 256², six kinks:
+    /// 0.30, 0.61 and 0.61 s of processor time). Cuts need the smallest table by far.
     void choose(PreintegrationTable& table) {
         const std::pair<KinkCuts, std::size_t> ways[] = {{KinkCuts::Ignored, options_.evenTexelsFirst ? quickTexels : 0},
                                                          {KinkCuts::None, quickTexels},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// CIELAB with the sRGB primaries and D65, as in VTK's vtkMath; Msh space after Moreland 2009, "Diverging Color Maps for Scientific
-/// Visualization", as in vtkColorTransferFunction.
+/// CIELAB with the sRGB primaries and D65, as in VTK's vtkMath; Msh space after Moreland 2009, "Diverging Color Maps
+/// for Scientific Visualization", as in vtkColorTransferFunction.
 #include <preint/color_space.h>
 
 #include <algorithm>
@@ -89,10 +89,12 @@ double angleBetween(double a, double b) {
     return std::min(difference, 2.0 * std::numbers::pi - difference);
 }
 
-/// The hue that an unsaturated end takes so that the path to `saturated` is perceptually even (Moreland 2009, Figure 9).
+/// The hue that an unsaturated end takes so that the path to `saturated` is perceptually even (Moreland 2009, Figure
+/// 9).
 double adjustedHue(const glm::dvec3& saturated, double unsaturatedMagnitude) {
     if (saturated.x >= unsaturatedMagnitude - 0.1) return saturated.z;
-    const double spin = saturated.y * std::sqrt(unsaturatedMagnitude * unsaturatedMagnitude - saturated.x * saturated.x) /
+    const double spin = saturated.y *
+                        std::sqrt(unsaturatedMagnitude * unsaturatedMagnitude - saturated.x * saturated.x) /
                         (saturated.x * std::sin(saturated.y));
     return saturated.z > -0.3 * std::numbers::pi ? saturated.z + spin : saturated.z - spin;
 }
@@ -147,12 +149,24 @@ void subdivide(ColorSpace space, const ColorNode& low, const ColorNode& high, do
 glm::dvec3 interpolateColor(ColorSpace space, const glm::dvec3& first, const glm::dvec3& second, double fraction) {
     glm::dvec3 color{0.0};
     switch (space) {
-        case ColorSpace::Rgb: color = glm::mix(first, second, fraction); break;
-        case ColorSpace::Hsv: color = interpolateHsv(first, second, fraction, false); break;
-        case ColorSpace::HsvWrapped: color = interpolateHsv(first, second, fraction, true); break;
-        case ColorSpace::Lab: color = rgbFromLab(glm::mix(labFromRgb(first), labFromRgb(second), fraction)); break;
-        case ColorSpace::Diverging: color = interpolateDiverging(first, second, fraction); break;
-        case ColorSpace::Step: color = fraction > 0.0 ? second : first; break;  // VTK: the colour of the next node
+        case ColorSpace::Rgb:
+            color = glm::mix(first, second, fraction);
+            break;
+        case ColorSpace::Hsv:
+            color = interpolateHsv(first, second, fraction, false);
+            break;
+        case ColorSpace::HsvWrapped:
+            color = interpolateHsv(first, second, fraction, true);
+            break;
+        case ColorSpace::Lab:
+            color = rgbFromLab(glm::mix(labFromRgb(first), labFromRgb(second), fraction));
+            break;
+        case ColorSpace::Diverging:
+            color = interpolateDiverging(first, second, fraction);
+            break;
+        case ColorSpace::Step:
+            color = fraction > 0.0 ? second : first;
+            break;  // VTK: the colour of the next node
     }
     return glm::clamp(color, 0.0, 1.0);
 }

@@ -22,10 +22,12 @@ void compositePeak(SegmentResult& sum, const Isosurface& peak) {
     sum.opticalDepth += -std::log1p(-peak.opacity);  // opacity 1: infinite
 }
 
-/// Value of piecewise linear `nodes` at `scalar`, which is an end of the interval (low, high) that holds no node inside.
+/// Value of piecewise linear `nodes` at `scalar`, which is an end of the interval (low, high) that holds no node
+/// inside.
 template <class Node, class Value>
 Value valueFromInside(const std::vector<Node>& nodes, Value Node::*value, double low, double scalar) {
-    const auto above = std::upper_bound(nodes.begin(), nodes.end(), low, [](double s, const Node& node) { return s < node.scalar; });
+    const auto above =
+        std::upper_bound(nodes.begin(), nodes.end(), low, [](double s, const Node& node) { return s < node.scalar; });
     if (above == nodes.begin()) return nodes.front().*value;
     if (above == nodes.end()) return nodes.back().*value;
     const Node& below = *(above - 1);
@@ -34,14 +36,15 @@ Value valueFromInside(const std::vector<Node>& nodes, Value Node::*value, double
     return below.*value * ((above->scalar - scalar) / width) + (*above).*value * ((scalar - below.scalar) / width);
 }
 
-/// How many of the first of ascending `breaks` are `before` scalar. Few are compared one and all: a binary search over random scalars
-/// costs more in mispredicted branches.
+/// How many of the first of ascending `breaks` are `before` scalar. Few are compared one and all: a binary search over
+/// random scalars costs more in mispredicted branches.
 template <class Before>
 std::size_t countOf(const std::vector<double>& breaks, double scalar, const Before& before) {
     constexpr std::size_t few = 24;
     if (breaks.size() > few) {
         return static_cast<std::size_t>(
-            std::partition_point(breaks.begin(), breaks.end(), [&](double node) { return before(node, scalar); }) - breaks.begin());
+            std::partition_point(breaks.begin(), breaks.end(), [&](double node) { return before(node, scalar); }) -
+            breaks.begin());
     }
     std::size_t count = 0;
     for (const double node : breaks) count += before(node, scalar) ? 1u : 0u;
@@ -55,8 +58,12 @@ bool ascending(const std::vector<Node>& nodes) {
 
 }  // namespace
 
-double SegmentResult::opacity() const { return -std::expm1(-opticalDepth); }
-double SegmentResult::transmittance() const { return std::exp(-opticalDepth); }
+double SegmentResult::opacity() const {
+    return -std::expm1(-opticalDepth);
+}
+double SegmentResult::transmittance() const {
+    return std::exp(-opticalDepth);
+}
 
 ExactIntegral::ExactIntegral(const TransferFunction& function) : function_(function) {
     if (function_.normalized || function_.extinctionPerExtent) {
@@ -68,8 +75,10 @@ ExactIntegral::ExactIntegral(const TransferFunction& function) : function_(funct
     }
     const auto usable = [](const ExtinctionNode& node) { return std::isfinite(node.scalar) && node.extinction >= 0.0; };
     if (!std::all_of(function_.extinction.begin(), function_.extinction.end(), usable) ||
-        !std::all_of(function_.color.begin(), function_.color.end(), [](const ColorNode& node) { return std::isfinite(node.scalar); })) {
-        throw std::runtime_error("transfer function has a node that is not finite or of negative extinction; mend that node");
+        !std::all_of(function_.color.begin(), function_.color.end(),
+                     [](const ColorNode& node) { return std::isfinite(node.scalar); })) {
+        throw std::runtime_error(
+            "transfer function has a node that is not finite or of negative extinction; mend that node");
     }
     if (function_.extinction.empty()) function_.extinction.push_back({function_.color.front().scalar, 0.0});
     std::stable_sort(function_.isosurfaces.begin(), function_.isosurfaces.end(),
@@ -90,9 +99,13 @@ void ExactIntegral::buildPieces() {
     double extinctionIntegral = 0.0;
     for (std::size_t i = 1; i < breaks_.size(); ++i) {
         const double low = breaks_[i - 1], high = breaks_[i];
-        Piece piece{low, high, 1.0 / (high - low), valueFromInside(extinction, &ExtinctionNode::extinction, low, low),
+        Piece piece{low,
+                    high,
+                    1.0 / (high - low),
+                    valueFromInside(extinction, &ExtinctionNode::extinction, low, low),
                     valueFromInside(extinction, &ExtinctionNode::extinction, low, high),
-                    valueFromInside(color, &ColorNode::color, low, low), valueFromInside(color, &ColorNode::color, low, high),
+                    valueFromInside(color, &ColorNode::color, low, low),
+                    valueFromInside(color, &ColorNode::color, low, high),
                     extinctionIntegral};
         extinctionIntegral += 0.5 * (piece.extinctionLow + piece.extinctionHigh) * (high - low);
         pieces_.push_back(piece);
@@ -163,7 +176,8 @@ SegmentResult ExactIntegral::segment(double front, double back, double length, I
     // Crossed are those with low < value ≤ high, whatever the direction.
     const bool rising = front < back;
     auto firstAbove = [&](double scalar) {
-        return std::upper_bound(peaks.begin(), peaks.end(), scalar, [](double s, const Isosurface& peak) { return s < peak.value; });
+        return std::upper_bound(peaks.begin(), peaks.end(), scalar,
+                                [](double s, const Isosurface& peak) { return s < peak.value; });
     };
     const auto begin = firstAbove(rising ? front : back), end = firstAbove(rising ? back : front);
     if (begin == end) return smoothSegment(front, back, length, integral);
@@ -229,7 +243,8 @@ double ExactIntegral::extinctionIntegral(double scalar) const {
     const Piece& piece = pieces_[index];
     const double anchor = index == 0 ? piece.high : piece.low;
     const double anchorExtinction = index == 0 ? piece.extinctionHigh : piece.extinctionLow;
-    return piece.extinctionIntegralLow + 0.5 * (anchorExtinction + valueAt(piece, scalar).extinction) * (scalar - anchor);
+    return piece.extinctionIntegralLow +
+           0.5 * (anchorExtinction + valueAt(piece, scalar).extinction) * (scalar - anchor);
 }
 
 }  // namespace tetralux::preint

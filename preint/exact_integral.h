@@ -19,7 +19,7 @@ enum class Integral { Standard, ScaleInvariant };
 struct SegmentResult {
     glm::dvec3 color{0};
     double opticalDepth = 0.0;
-    double opacity() const;        ///< 1 − exp(−opticalDepth), accurate for thin segments
+    double opacity() const;  ///< 1 − exp(−opticalDepth), accurate for thin segments
     double transmittance() const;
 };
 

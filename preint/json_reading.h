@@ -26,8 +26,8 @@ public:
     double number() const;  ///< finite
     bool boolean() const;
     std::string text() const;
-    glm::dvec3 color() const;  ///< three numbers in [0, 1]
-    double fraction(const char* what) const;  ///< a number in [0, 1]
+    glm::dvec3 color() const;                  ///< three numbers in [0, 1]
+    double fraction(const char* what) const;   ///< a number in [0, 1]
     JsonPlace array(const char* shape) const;  ///< itself, when it is an array; `shape` shows the right one
 
     [[noreturn]] void fail(const std::string& complaint) const;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Colour maps exported by ParaView: a list of one object with `RGBPoints` (s, r, g, b, …), `ColorSpace` and, when opacity was
-/// exported too, `Points` (s, opacity, midpoint, sharpness, …), interpolated as VTK's vtkPiecewiseFunction does.
+/// Colour maps exported by ParaView: a list of one object with `RGBPoints` (s, r, g, b, …), `ColorSpace` and, when
+/// opacity was exported too, `Points` (s, opacity, midpoint, sharpness, …), interpolated as VTK's vtkPiecewiseFunction
+/// does.
 ///
-/// Opacity becomes extinction as VTK's unstructured volume mappers take it: attenuation per unit distance. ParaView's unit
-/// distance is about one cell (diagonal / cells^⅓), which a colour map does not know, so it is 1/50 of the extent here, a mesh
-/// of some 100,000 cells. It stays linear between points, and an opacity of 1 stays finite.
+/// Opacity becomes extinction as VTK's unstructured volume mappers take it: attenuation per unit distance. ParaView's
+/// unit distance is about one cell (diagonal / cells^⅓), which a colour map does not know, so it is 1/50 of the extent
+/// here, a mesh of some 100,000 cells. It stays linear between points, and an opacity of 1 stays finite.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -27,14 +28,16 @@ struct OpacityPoint {
 
 ColorSpace colorSpaceOf(const JsonPlace& map) {
     if (!map.value().contains("ColorSpace")) return ColorSpace::Rgb;
-    static const std::map<std::string, ColorSpace> spaces{{"CIELAB", ColorSpace::Lab}, {"Diverging", ColorSpace::Diverging},
-                                                          {"HSV", ColorSpace::Hsv},    {"Lab", ColorSpace::Lab},
-                                                          {"RGB", ColorSpace::Rgb},    {"Step", ColorSpace::Step}};
+    static const std::map<std::string, ColorSpace> spaces{
+        {"CIELAB", ColorSpace::Lab}, {"Diverging", ColorSpace::Diverging},
+        {"HSV", ColorSpace::Hsv},    {"Lab", ColorSpace::Lab},
+        {"RGB", ColorSpace::Rgb},    {"Step", ColorSpace::Step}};
     const JsonPlace place = map.member("ColorSpace");
     const auto found = spaces.find(place.text());
     if (found == spaces.end()) {
-        place.fail(fmt::format("\"{}\" is not a color space that is read here; choose CIELAB, Diverging, HSV, Lab, RGB or Step",
-                               place.text()));
+        place.fail(fmt::format(
+            "\"{}\" is not a color space that is read here; choose CIELAB, Diverging, HSV, Lab, RGB or Step",
+            place.text()));
     }
     const bool wraps = map.value().contains("HSVWrap") && map.value().at("HSVWrap") == 1;
     return found->second == ColorSpace::Hsv && wraps ? ColorSpace::HsvWrapped : found->second;
@@ -49,7 +52,8 @@ double nearUnit(const JsonPlace& place, const char* what) {
 }
 
 void requireAscending(const JsonPlace& place, double previous, double scalar) {
-    if (scalar < previous) place.fail(fmt::format("is {}, below the {} before it; sort the points by scalar", scalar, previous));
+    if (scalar < previous)
+        place.fail(fmt::format("is {}, below the {} before it; sort the points by scalar", scalar, previous));
 }
 
 std::vector<ColorNode> colorPoints(const JsonPlace& points) {
@@ -61,9 +65,10 @@ std::vector<ColorNode> colorPoints(const JsonPlace& points) {
     for (std::size_t i = 0; i < points.size(); i += 4) {
         const double scalar = points.element(i).number();
         if (!nodes.empty()) requireAscending(points.element(i), nodes.back().scalar, scalar);
-        nodes.push_back({scalar,
-                         {nearUnit(points.element(i + 1), "a color channel"), nearUnit(points.element(i + 2), "a color channel"),
-                          nearUnit(points.element(i + 3), "a color channel")}});
+        nodes.push_back(
+            {scalar,
+             {nearUnit(points.element(i + 1), "a color channel"), nearUnit(points.element(i + 2), "a color channel"),
+              nearUnit(points.element(i + 3), "a color channel")}});
     }
     return nodes;
 }
@@ -71,19 +76,21 @@ std::vector<ColorNode> colorPoints(const JsonPlace& points) {
 std::vector<OpacityPoint> opacityPoints(const JsonPlace& points) {
     points.array("[s, opacity, midpoint, sharpness, …]");
     if (points.size() == 0 || points.size() % 4 != 0) {
-        points.fail(fmt::format("has {} numbers, must have four for each point: s, opacity, midpoint, sharpness", points.size()));
+        points.fail(fmt::format("has {} numbers, must have four for each point: s, opacity, midpoint, sharpness",
+                                points.size()));
     }
     std::vector<OpacityPoint> read;
     for (std::size_t i = 0; i < points.size(); i += 4) {
         const double scalar = points.element(i).number();
         if (!read.empty()) requireAscending(points.element(i), read.back().scalar, scalar);
-        read.push_back({scalar, nearUnit(points.element(i + 1), "an opacity"), nearUnit(points.element(i + 2), "a midpoint"),
-                        nearUnit(points.element(i + 3), "a sharpness")});
+        read.push_back({scalar, nearUnit(points.element(i + 1), "an opacity"),
+                        nearUnit(points.element(i + 2), "a midpoint"), nearUnit(points.element(i + 3), "a sharpness")});
     }
     return read;
 }
 
-/// vtkPiecewiseFunction between two points: the midpoint is where the mean opacity lies, sharpness bends linear to step.
+/// vtkPiecewiseFunction between two points: the midpoint is where the mean opacity lies, sharpness bends linear to
+/// step.
 double opacityBetween(const OpacityPoint& low, const OpacityPoint& high, double fraction) {
     const double midpoint = std::clamp(low.midpoint, 1e-5, 1.0 - 1e-5);
     double s = fraction < midpoint ? 0.5 * fraction / midpoint : 0.5 + 0.5 * (fraction - midpoint) / (1.0 - midpoint);
@@ -92,8 +99,8 @@ double opacityBetween(const OpacityPoint& low, const OpacityPoint& high, double 
     s = s < 0.5 ? 0.5 * std::pow(2.0 * s, power) : 1.0 - 0.5 * std::pow(2.0 * (1.0 - s), power);
     const double square = s * s, cube = square * s;
     const double tangent = (1.0 - low.sharpness) * (high.opacity - low.opacity);
-    const double opacity = (2.0 * cube - 3.0 * square + 1.0) * low.opacity + (3.0 * square - 2.0 * cube) * high.opacity +
-                           (2.0 * cube - 3.0 * square + s) * tangent;
+    const double opacity = (2.0 * cube - 3.0 * square + 1.0) * low.opacity +
+                           (3.0 * square - 2.0 * cube) * high.opacity + (2.0 * cube - 3.0 * square + s) * tangent;
     return std::clamp(opacity, std::min(low.opacity, high.opacity), std::max(low.opacity, high.opacity));
 }
 
@@ -133,7 +140,8 @@ const nlohmann::json& onlyMap(const nlohmann::json& document, const std::string&
 
 bool isParaViewColorMap(const nlohmann::json& document) {
     const nlohmann::json& first = document.is_array() && !document.empty() ? document.front() : document;
-    return first.is_object() && (first.contains("RGBPoints") || first.contains("ColorSpace") || first.contains("IndexedColors"));
+    return first.is_object() &&
+           (first.contains("RGBPoints") || first.contains("ColorSpace") || first.contains("IndexedColors"));
 }
 
 TransferFunction paraViewColorMap(const nlohmann::json& document, const std::string& origin) {

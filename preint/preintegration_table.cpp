@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Scale-invariant tables grow from the diagonal outwards: a segment is its first step, composited over the rest, which is the neighbouring
-/// texel (Lum, Wilson & Ma 2004, "High-quality lighting and efficient pre-integration for volume rendering", for the idea). All terms are
-/// positive and every step is exact, so texels are too. In the standard integral neighbours differ in length as well, so each texel is an
-/// exact integral of its own, but few slices along the length do, because mean colour varies slowly with it.
+/// Scale-invariant tables grow from the diagonal outwards: a segment is its first step, composited over the rest, which
+/// is the neighbouring texel (Lum, Wilson & Ma 2004, "High-quality lighting and efficient pre-integration for volume
+/// rendering", for the idea). All terms are positive and every step is exact, so texels are too. In the standard
+/// integral neighbours differ in length as well, so each texel is an exact integral of its own, but few slices along
+/// the length do, because mean colour varies slowly with it.
 #include <preint/preintegration_table.h>
 
 #include <algorithm>
@@ -31,8 +32,8 @@ constexpr int largestRows3D = 2048;
 constexpr int largestSize2D = 2048, largestSize3D = 512, largestSlices = 64;
 constexpr std::size_t largestTexels = std::size_t{1} << 24;  ///< 256 MiB
 constexpr std::size_t quickTexels = std::size_t{1} << 19;    ///< 8 MiB: stays in cache, builds in some 0.1 s
-/// Depth up to which slices lie evenly: mean colour bends at depths about 1, but counts there less than where light is absorbed. From
-/// 2 to 8 errors of tables with 4 to 16 slices differ little; 1 doubles them.
+/// Depth up to which slices lie evenly: mean colour bends at depths about 1, but counts there less than where light is
+/// absorbed. From 2 to 8 errors of tables with 4 to 16 slices differ little; 1 doubles them.
 constexpr double evenDepth = 5.0;
 
 using Clock = std::chrono::steady_clock;
@@ -58,13 +59,21 @@ struct Step {
     double opacity, transmittance;
 };
 
-Step stepOf(const SegmentResult& segment) { return {segment.color, segment.opacity(), segment.transmittance()}; }
+Step stepOf(const SegmentResult& segment) {
+    return {segment.color, segment.opacity(), segment.transmittance()};
+}
 
 /// One zone of a scale-invariant table, row by row.
 class ZoneRecurrence {
 public:
-    ZoneRecurrence(const ExactIntegral& exact, const TableTexels& texels, const glm::dvec2& zone, const double* scalars, int size)
-        : exact_(exact), texels_(texels), zone_(zone), size_(size), scalar_(scalars, scalars + size), depth_(size, 0.0) {
+    ZoneRecurrence(const ExactIntegral& exact, const TableTexels& texels, const glm::dvec2& zone, const double* scalars,
+                   int size)
+        : exact_(exact),
+          texels_(texels),
+          zone_(zone),
+          size_(size),
+          scalar_(scalars, scalars + size),
+          depth_(size, 0.0) {
         for (int i = 0; i + 1 < size; ++i) {
             const SegmentResult up = exact.smoothSegment(scalar_[i], scalar_[i + 1], 0.0, Integral::ScaleInvariant);
             rising_.push_back(stepOf(up));
@@ -94,10 +103,10 @@ private:
         if (scalar_[i] == scalar_[j]) return texels_.diagonal(scalar_[i], zone_);
         const double meanExtinction = std::abs(depth_[j] - depth_[i]) / std::abs(scalar_[j] - scalar_[i]);
         constexpr double leastOpacity = 1e-290;
-        const glm::dvec3 mean =
-            opacity > leastOpacity
-                ? color / opacity
-                : exact_.nearestVisibleColor(std::min(scalar_[i], scalar_[j]), std::max(scalar_[i], scalar_[j]), zone_.x, zone_.y);
+        const glm::dvec3 mean = opacity > leastOpacity
+                                    ? color / opacity
+                                    : exact_.nearestVisibleColor(std::min(scalar_[i], scalar_[j]),
+                                                                 std::max(scalar_[i], scalar_[j]), zone_.x, zone_.y);
         return glm::vec4(glm::dvec4(mean, meanExtinction));
     }
 
@@ -112,7 +121,8 @@ private:
 void fillScaleInvariant(const ExactIntegral& exact, PreintegrationTable& table) {
     const TableTexels texels(exact, table);
     for (std::size_t zone = 0; zone < table.zones.size(); ++zone) {
-        const ZoneRecurrence recurrence(exact, texels, table.zones[zone], &table.texelScalars[zone * table.size], table.size);
+        const ZoneRecurrence recurrence(exact, texels, table.zones[zone], &table.texelScalars[zone * table.size],
+                                        table.size);
         tbb::parallel_for(tbb::blocked_range<int>(0, table.size), [&](const tbb::blocked_range<int>& rows) {
             for (int j = rows.begin(); j < rows.end(); ++j) {
                 recurrence.fillRow(j, &table.texels[(zone * table.size + j) * table.size]);
@@ -132,8 +142,8 @@ void fillStandard(const ExactIntegral& exact, PreintegrationTable& table) {
     });
 }
 
-/// The first size from the table's own to a quarter more at which every kink falls on a texel centre of evenly laid texels; the table's own
-/// when there is none.
+/// The first size from the table's own to a quarter more at which every kink falls on a texel centre of evenly laid
+/// texels; the table's own when there is none.
 int sizeMeeting(const ZoneKinks& kinks, const PreintegrationTable& table) {
     constexpr double near = 0.01;  // texels
     const auto meets = [&](int size) {
@@ -158,14 +168,15 @@ public:
     SizeChooser(const ExactIntegral& exact, const TableOptions& options, double scalarMin, double scalarMax)
         : exact_(exact), options_(options), scalarMin_(scalarMin), scalarMax_(scalarMax) {}
 
-    /// Lays `table` out: the first of several ways that keeps the error, or the one that comes closest. Even texels make look-up
-    /// cheapest; warp and ramps, or cuts at kinks, each double the time of a frame on llvmpipe (bucky ball of 149k cells, 256², six kinks:
-    /// 0.30, 0.61 and 0.61 s of processor time). Cuts need the smallest table by far.
+    /// Lays `table` out: the first of several ways that keeps the error, or the one that comes closest. Even texels
+    /// make look-up cheapest; warp and ramps, or cuts at kinks, each double the time of a frame on llvmpipe (bucky ball
+    /// of 149k cells, 256², six kinks: 0.30, 0.61 and 0.61 s of processor time). Cuts need the smallest table by far.
     void choose(PreintegrationTable& table) {
-        const std::pair<KinkCuts, std::size_t> ways[] = {{KinkCuts::Ignored, options_.evenTexelsFirst ? quickTexels : 0},
-                                                         {KinkCuts::None, quickTexels},
-                                                         {KinkCuts::All, largestTexels},
-                                                         {KinkCuts::None, largestTexels}};
+        const std::pair<KinkCuts, std::size_t> ways[] = {
+            {KinkCuts::Ignored, options_.evenTexelsFirst ? quickTexels : 0},
+            {KinkCuts::None, quickTexels},
+            {KinkCuts::All, largestTexels},
+            {KinkCuts::None, largestTexels}};
         const PreintegrationTable empty = table;
         double least = HUGE_VAL;
         for (const auto& [cuts, texels] : ways) {
@@ -184,7 +195,8 @@ public:
     const std::vector<SampleRay>& rays() const { return rays_; }
 
 private:
-    /// The layout with the size that suits it, of at most `mostTexels` unless the options ask for more; returns its error.
+    /// The layout with the size that suits it, of at most `mostTexels` unless the options ask for more; returns its
+    /// error.
     double grown(PreintegrationTable& table, KinkCuts cuts, std::size_t mostTexels) {
         kinks_ = layOutTable(exact_, scalarMin_, scalarMax_, cuts, table);
         kinksToMeet_ = cuts == KinkCuts::Ignored ? std::exchange(kinks_, ZoneKinks(kinks_.size())) : ZoneKinks();
@@ -195,8 +207,9 @@ private:
         while (options_.size <= 0 && !fits(table) && table.size > 2) table.size /= 2;  // very many zones
         if (!fits(table)) {
             if (cuts == KinkCuts::All) return HUGE_VAL;
-            throw std::runtime_error(fmt::format("table of {} zones of {}×{}×{} texels is too large; ask for a smaller size",
-                                                 table.zones.size(), table.size, table.size, table.slices));
+            throw std::runtime_error(
+                fmt::format("table of {} zones of {}×{}×{} texels is too large; ask for a smaller size",
+                            table.zones.size(), table.size, table.size, table.slices));
         }
         if (options_.size <= 0) table.size = sizeMeeting(kinksToMeet_, table);
         placeTexels(kinks_, table);
@@ -206,15 +219,16 @@ private:
         return error;
     }
 
-    /// Doubles size or slices, whichever helps more, or both when neither helps alone; false when nothing does. Twice the texels
-    /// should quarter the error; an axis that does not even gain a tenth is not what the error comes from.
+    /// Doubles size or slices, whichever helps more, or both when neither helps alone; false when nothing does. Twice
+    /// the texels should quarter the error; an axis that does not even gain a tenth is not what the error comes from.
     bool grow(PreintegrationTable& table, double& error, std::size_t mostTexels) const {
         constexpr double leastGain = 0.9;
         const bool growSize = options_.size <= 0;
         const bool growSlices = table.integral == Integral::Standard && options_.lengthSlices <= 0;
         PreintegrationTable finer = table, deeper = table, both = table;
         const double finerError = growSize ? errorOfGrown(finer, 2, 1, mostTexels) : HUGE_VAL;
-        const double deeperError = growSlices && finerError > options_.wantedError ? errorOfGrown(deeper, 1, 2, mostTexels) : HUGE_VAL;
+        const double deeperError =
+            growSlices && finerError > options_.wantedError ? errorOfGrown(deeper, 1, 2, mostTexels) : HUGE_VAL;
         const bool oneHelps = std::min(finerError, deeperError) < leastGain * error;
         const double bothError = !oneHelps && growSize && growSlices ? errorOfGrown(both, 2, 2, mostTexels) : HUGE_VAL;
         const double best = std::min({finerError, deeperError, bothError});
@@ -242,10 +256,11 @@ private:
 };
 
 template <class Fill>
-PreintegrationTable build(const ExactIntegral& exact, PreintegrationTable table, const TableOptions& options, double scalarMin, double scalarMax,
-                          const Fill& fill) {
+PreintegrationTable build(const ExactIntegral& exact, PreintegrationTable table, const TableOptions& options,
+                          double scalarMin, double scalarMax, const Fill& fill) {
     if (options.size < 0 || options.size == 1) {
-        throw std::runtime_error(fmt::format("table size {} is not possible; give at least 2 texels, or 0 to have it chosen", options.size));
+        throw std::runtime_error(
+            fmt::format("table size {} is not possible; give at least 2 texels, or 0 to have it chosen", options.size));
     }
     const auto start = Clock::now();
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
@@ -262,7 +277,8 @@ PreintegrationTable build(const ExactIntegral& exact, PreintegrationTable table,
 
 }  // namespace
 
-PreintegrationTable buildScaleInvariantTable(const ExactIntegral& exact, double scalarMin, double scalarMax, const TableOptions& options) {
+PreintegrationTable buildScaleInvariantTable(const ExactIntegral& exact, double scalarMin, double scalarMax,
+                                             const TableOptions& options) {
     PreintegrationTable table;
     table.integral = Integral::ScaleInvariant;
     return build(exact, std::move(table), options, scalarMin, scalarMax, fillScaleInvariant);
@@ -271,7 +287,8 @@ PreintegrationTable buildScaleInvariantTable(const ExactIntegral& exact, double 
 PreintegrationTable buildStandardTable(const ExactIntegral& exact, double scalarMin, double scalarMax, double lengthMax,
                                        const TableOptions& options) {
     if (!(lengthMax > 0.0) || !std::isfinite(lengthMax)) {
-        throw std::runtime_error(fmt::format("largest length {} of a pre-integration table must be positive and finite", lengthMax));
+        throw std::runtime_error(
+            fmt::format("largest length {} of a pre-integration table must be positive and finite", lengthMax));
     }
     PreintegrationTable table;
     table.integral = Integral::Standard;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Colour maps by the names that people know, each with one extinction ramp. Control points are the published ones: viridis and
-/// inferno are matplotlib's 256-entry lists thinned to those entries between which straight lines keep every listed colour
-/// within 1/510; the others are ParaView's built-in maps, in their own colour spaces.
+/// Colour maps by the names that people know, each with one extinction ramp. Control points are the published ones:
+/// viridis and inferno are matplotlib's 256-entry lists thinned to those entries between which straight lines keep
+/// every listed colour within 1/510; the others are ParaView's built-in maps, in their own colour spaces.
 #include <algorithm>
 #include <stdexcept>
 #include <vector>
@@ -66,7 +66,8 @@ const std::vector<Preset>& presets() {
 }
 // clang-format on
 
-/// Low values show through, high ones hide what is behind: across the whole range the optical depth is 8.0, most of it above the middle.
+/// Low values show through, high ones hide what is behind: across the whole range the optical depth is 8.0, most of it
+/// above the middle.
 const std::vector<ExtinctionNode> defaultExtinction{{0.0, 0.0}, {0.15, 0.3}, {0.5, 4.0}, {1.0, 25.0}};
 
 }  // namespace
@@ -78,7 +79,8 @@ std::vector<std::string> presetNames() {
 }
 
 TransferFunction preset(const std::string& name) {
-    const auto found = std::find_if(presets().begin(), presets().end(), [&](const Preset& one) { return name == one.name; });
+    const auto found =
+        std::find_if(presets().begin(), presets().end(), [&](const Preset& one) { return name == one.name; });
     if (found == presets().end()) {
         throw std::runtime_error(fmt::format("there is no transfer function preset \"{}\"; known are {}", name,
                                              fmt::join(presetNames(), ", ")));

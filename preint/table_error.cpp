@@ -20,8 +20,8 @@ void composite(SegmentResult& sum, const SegmentResult& behind) {
     sum.opticalDepth += behind.opticalDepth;
 }
 
-/// Quasi-random numbers in [0, 1): the additive recurrence of Roberts 2018 ("The unreasonable effectiveness of quasirandom
-/// sequences") in four dimensions, dealt out one after the other.
+/// Quasi-random numbers in [0, 1): the additive recurrence of Roberts 2018 ("The unreasonable effectiveness of
+/// quasirandom sequences") in four dimensions, dealt out one after the other.
 class QuasiRandom {
 public:
     double operator()() {
@@ -64,7 +64,9 @@ struct Sampler {
         rays.push_back(std::move(ray));
     }
     void addSegment(double front, double back) { add({{inRange(front), inRange(back)}, {randomLength()}, {}}); }
-    void addLongSegment(double front, double back) { add({{inRange(front), inRange(back)}, {layout.lengthMax * (0.3 + 0.7 * random())}, {}}); }
+    void addLongSegment(double front, double back) {
+        add({{inRange(front), inRange(back)}, {layout.lengthMax * (0.3 + 0.7 * random())}, {}});
+    }
 
     void addSegments() {
         constexpr int perKind = 400;
@@ -96,7 +98,8 @@ struct Sampler {
         for (int i = 0; i < 12; ++i) {
             const int steps = stepCounts[i % 3];
             addRay(steps, [&](double t) { return std::lerp(low, high, i % 2 == 0 ? t : 1.0 - t); });
-            const double middle = randomScalar(), amplitude = (high - low) * (0.05 + 0.45 * random()), turns = 0.5 + 4.0 * random();
+            const double middle = randomScalar(), amplitude = (high - low) * (0.05 + 0.45 * random()),
+                         turns = 0.5 + 4.0 * random();
             addRay(steps, [=](double t) { return middle + amplitude * std::sin(2.0 * std::numbers::pi * turns * t); });
             const double from = randomScalar(), to = randomScalar();
             addRay(steps, [=](double t) { return std::lerp(from, to, t); });

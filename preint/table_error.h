@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// How far look-up is from the exact integral: single segments and whole rays, along which errors of many thin segments add up.
+/// How far look-up is from the exact integral: single segments and whole rays, along which errors of many thin segments
+/// add up.
 #pragma once
 
 #include <vector>
@@ -9,14 +10,15 @@
 
 namespace tetralux::preint {
 
-/// A ray: consecutive segments scalar[i] → scalar[i+1] over length[i], and what they add up to exactly. A single segment is a ray of one.
+/// A ray: consecutive segments scalar[i] → scalar[i+1] over length[i], and what they add up to exactly. A single
+/// segment is a ray of one.
 struct SampleRay {
     std::vector<double> scalars, lengths;
     SegmentResult exact;
 };
 
-/// The same rays for the same arguments, on every machine: some 1500 single segments (long, short, about nodes) and 36 rays of
-/// 30 to 400 random steps that sweep the range or oscillate in part of it.
+/// The same rays for the same arguments, on every machine: some 1500 single segments (long, short, about nodes) and 36
+/// rays of 30 to 400 random steps that sweep the range or oscillate in part of it.
 std::vector<SampleRay> sampleRays(const ExactIntegral& exact, const PreintegrationTable& layout);
 
 /// The largest difference of premultiplied colour or opacity at the end of any ray.

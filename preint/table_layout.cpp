@@ -17,7 +17,8 @@ namespace {
 template <class Node, class Value>
 void addJumps(const std::vector<Node>& nodes, Value Node::*value, std::vector<double>& jumps) {
     for (std::size_t i = 1; i < nodes.size(); ++i) {
-        if (nodes[i].scalar == nodes[i - 1].scalar && nodes[i].*value != nodes[i - 1].*value) jumps.push_back(nodes[i].scalar);
+        if (nodes[i].scalar == nodes[i - 1].scalar && nodes[i].*value != nodes[i - 1].*value)
+            jumps.push_back(nodes[i].scalar);
     }
 }
 
@@ -41,7 +42,8 @@ void addKinks(const std::vector<Node>& nodes, const Size& differencePerScale, st
     for (std::size_t i = 0; i < nodes.size(); ++i) strengths[nodes[i].scalar] += differencePerScale(slope, i);
 }
 
-/// How much a kink at each node can hurt: change of slope of extinction over its largest value, and of colour, per range.
+/// How much a kink at each node can hurt: change of slope of extinction over its largest value, and of colour, per
+/// range.
 std::map<double, double> kinkStrengths(const ExactIntegral& exact, double low, double high) {
     std::map<double, double> strengths;
     const double largest = exact.largestExtinction(low, high), range = high - low;
@@ -52,24 +54,32 @@ std::map<double, double> kinkStrengths(const ExactIntegral& exact, double low, d
         return a == nullptr ? glm::dvec3(0.0) : (b->color - a->color) / width;
     };
     if (largest > 0.0) {
-        addKinks(exact.function().extinction, [&](const auto& slope, std::size_t i) {
-            return std::abs(slope(i + 1, extinctionSlope) - slope(i, extinctionSlope)) * range / largest;
-        }, strengths);
+        addKinks(
+            exact.function().extinction,
+            [&](const auto& slope, std::size_t i) {
+                return std::abs(slope(i + 1, extinctionSlope) - slope(i, extinctionSlope)) * range / largest;
+            },
+            strengths);
     }
-    addKinks(exact.function().color, [&](const auto& slope, std::size_t i) {
-        const glm::dvec3 change = glm::abs(slope(i + 1, colorSlope) - slope(i, colorSlope)) * range;
-        return std::max({change.x, change.y, change.z});
-    }, strengths);
+    addKinks(
+        exact.function().color,
+        [&](const auto& slope, std::size_t i) {
+            const glm::dvec3 change = glm::abs(slope(i + 1, colorSlope) - slope(i, colorSlope)) * range;
+            return std::max({change.x, change.y, change.z});
+        },
+        strengths);
     std::erase_if(strengths, [&](const auto& entry) { return !(entry.first > low && entry.first < high); });
     return strengths;
 }
 
 /// The `most` strongest kinks that are not jumps, ascending.
-std::vector<double> strongestKinks(const ExactIntegral& exact, double low, double high, const std::vector<double>& jumps, std::size_t most) {
-    constexpr double weakest = 0.05;  // errs by weakest/(4·size): 5e-5 for 256 texels
+std::vector<double> strongestKinks(const ExactIntegral& exact, double low, double high,
+                                   const std::vector<double>& jumps, std::size_t most) {
+    constexpr double weakest = 0.05;                // errs by weakest/(4·size): 5e-5 for 256 texels
     std::vector<std::pair<double, double>> ranked;  // strength, scalar
     for (const auto& [scalar, strength] : kinkStrengths(exact, low, high)) {
-        if (strength > weakest && !std::binary_search(jumps.begin(), jumps.end(), scalar)) ranked.emplace_back(strength, scalar);
+        if (strength > weakest && !std::binary_search(jumps.begin(), jumps.end(), scalar))
+            ranked.emplace_back(strength, scalar);
     }
     std::sort(ranked.rbegin(), ranked.rend());
     ranked.resize(std::min(ranked.size(), most));
@@ -90,7 +100,8 @@ std::vector<glm::dvec3> extinctionRamps(const ExactIntegral& exact, double low, 
     for (std::size_t i = 0; i < scalars.size(); ++i) {
         const double next = i + 1 < scalars.size() ? scalars[i + 1] : high;
         const double above = exact.valueFromAbove(scalars[i]).extinction;
-        const double slopeAbove = next > scalars[i] ? (exact.valueFromBelow(next).extinction - above) / (next - scalars[i]) : 0.0;
+        const double slopeAbove =
+            next > scalars[i] ? (exact.valueFromBelow(next).extinction - above) / (next - scalars[i]) : 0.0;
         const double below = i == 0 ? 0.0 : exact.valueFromBelow(scalars[i]).extinction;
         ramps.emplace_back(scalars[i], above - below, 0.5 * (slopeAbove - slope));
         slope = slopeAbove;
@@ -98,7 +109,8 @@ std::vector<glm::dvec3> extinctionRamps(const ExactIntegral& exact, double low, 
     return ramps;
 }
 
-/// Whether float sums of the ramps keep extinction to some 1e-4 of 1/range, a scene's unit; every ramp costs each look-up.
+/// Whether float sums of the ramps keep extinction to some 1e-4 of 1/range, a scene's unit; every ramp costs each
+/// look-up.
 bool rampsAreAccurate(const std::vector<glm::dvec3>& ramps, double range) {
     constexpr std::size_t most = 16;
     constexpr double largestSum = 2000.0;
@@ -123,14 +135,17 @@ std::vector<int> texelsOf(const std::vector<double>& scalars, int size) {
 
 }  // namespace
 
-ZoneKinks layOutTable(const ExactIntegral& exact, double scalarMin, double scalarMax, KinkCuts cuts, PreintegrationTable& table) {
+ZoneKinks layOutTable(const ExactIntegral& exact, double scalarMin, double scalarMax, KinkCuts cuts,
+                      PreintegrationTable& table) {
     if (!std::isfinite(scalarMin) || !std::isfinite(scalarMax) || scalarMax < scalarMin) {
-        throw std::runtime_error(fmt::format("scalar range [{}, {}] of a pre-integration table is not a range; give finite, ascending ends",
-                                             scalarMin, scalarMax));
+        throw std::runtime_error(
+            fmt::format("scalar range [{}, {}] of a pre-integration table is not a range; give finite, ascending ends",
+                        scalarMin, scalarMax));
     }
     constexpr std::size_t mostWarps = 12, mostCuts = 32;
     std::vector<double> cutsAt = jumpsWithin(exact.function(), scalarMin, scalarMax);
-    std::vector<double> kinks = strongestKinks(exact, scalarMin, scalarMax, cutsAt, cuts == KinkCuts::All ? mostCuts : mostWarps);
+    std::vector<double> kinks =
+        strongestKinks(exact, scalarMin, scalarMax, cutsAt, cuts == KinkCuts::All ? mostCuts : mostWarps);
     if (cuts == KinkCuts::All) {
         cutsAt.insert(cutsAt.end(), kinks.begin(), kinks.end());
         std::sort(cutsAt.begin(), cutsAt.end());
@@ -143,10 +158,12 @@ ZoneKinks layOutTable(const ExactIntegral& exact, double scalarMin, double scala
         }
     }
     for (const double cut : cutsAt) {
-        const bool shared = std::any_of(interfaces.begin(), interfaces.end(), [&](const Interface& one) { return one.value == cut; });
+        const bool shared =
+            std::any_of(interfaces.begin(), interfaces.end(), [&](const Interface& one) { return one.value == cut; });
         if (!shared) interfaces.push_back({cut, 0.0, glm::dvec3{0.0}, 0, 0});
     }
-    std::stable_sort(interfaces.begin(), interfaces.end(), [](const Interface& a, const Interface& b) { return a.value < b.value; });
+    std::stable_sort(interfaces.begin(), interfaces.end(),
+                     [](const Interface& a, const Interface& b) { return a.value < b.value; });
 
     auto zoneOf = [&](auto count) { return static_cast<int>(count - cutsAt.begin()); };
     for (std::size_t i = 0; i < interfaces.size(); ++i) {
@@ -166,7 +183,8 @@ ZoneKinks layOutTable(const ExactIntegral& exact, double scalarMin, double scala
 
     ZoneKinks inZone(table.zones.size());
     for (const double kink : kinks) {
-        inZone[static_cast<std::size_t>(std::upper_bound(cutsAt.begin(), cutsAt.end(), kink) - cutsAt.begin())].push_back(kink);
+        inZone[static_cast<std::size_t>(std::upper_bound(cutsAt.begin(), cutsAt.end(), kink) - cutsAt.begin())]
+            .push_back(kink);
     }
     table.ramps = extinctionRamps(exact, scalarMin, scalarMax);
     if (cuts != KinkCuts::None || !rampsAreAccurate(table.ramps, scalarMax - scalarMin)) table.ramps.clear();
@@ -182,7 +200,8 @@ void placeTexels(const ZoneKinks& kinks, PreintegrationTable& table) {
         const glm::dvec2& zone = table.zones[z];
         double* scalarOf = &table.texelScalars[z * table.size];
         std::vector<double> ends{zone.x};
-        if (kinks[z].size() + 2 <= static_cast<std::size_t>(table.size) / 4) ends.insert(ends.end(), kinks[z].begin(), kinks[z].end());
+        if (kinks[z].size() + 2 <= static_cast<std::size_t>(table.size) / 4)
+            ends.insert(ends.end(), kinks[z].begin(), kinks[z].end());
         ends.push_back(zone.y);
         table.warped = table.warped || ends.size() > 2;
         if (zone.x == zone.y) {  // a field of one value

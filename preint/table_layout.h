@@ -12,17 +12,18 @@ namespace tetralux::preint {
 /// The scalars inside each zone that deserve a texel of their own, ascending.
 using ZoneKinks = std::vector<std::vector<double>>;
 
-/// Whether segments are cut at kinks as they are at jumps: a hundred times more accurate at the same size, but each cut costs a look-up.
-/// Ignored: there are no ramps either, and texels are to be placed without regard to kinks.
+/// Whether segments are cut at kinks as they are at jumps: a hundred times more accurate at the same size, but each cut
+/// costs a look-up. Ignored: there are no ramps either, and texels are to be placed without regard to kinks.
 enum class KinkCuts { None, All, Ignored };
 
-/// Fills `zones`, `interfaces` and `ramps` of `table` and returns the strongest kinks. Every jump in (scalarMin, scalarMax), and every
-/// kink if asked for, ends a zone; isosurfaces in (scalarMin, scalarMax] become interfaces, the others can never be crossed.
-/// \throws std::runtime_error when the range is not finite or reversed.
-ZoneKinks layOutTable(const ExactIntegral& exact, double scalarMin, double scalarMax, KinkCuts cuts, PreintegrationTable& table);
+/// Fills `zones`, `interfaces` and `ramps` of `table` and returns the strongest kinks. Every jump in (scalarMin,
+/// scalarMax), and every kink if asked for, ends a zone; isosurfaces in (scalarMin, scalarMax] become interfaces, the
+/// others can never be crossed. \throws std::runtime_error when the range is not finite or reversed.
+ZoneKinks layOutTable(const ExactIntegral& exact, double scalarMin, double scalarMax, KinkCuts cuts,
+                      PreintegrationTable& table);
 
-/// Fills `texelScalars`, `warp` and `warped` for the table's size: half of the texels by width, half evenly over the pieces
-/// between kinks, every kink at a texel centre. Kinks for which there is no room are left out.
+/// Fills `texelScalars`, `warp` and `warped` for the table's size: half of the texels by width, half evenly over the
+/// pieces between kinks, every kink at a texel centre. Kinks for which there is no room are left out.
 void placeTexels(const ZoneKinks& kinks, PreintegrationTable& table);
 
 }  // namespace tetralux::preint

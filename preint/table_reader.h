@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// The shared look-up texts in double precision over anything that yields texels: a finished table, or texels computed when asked for.
+/// The shared look-up texts in double precision over anything that yields texels: a finished table, or texels computed
+/// when asked for.
 #pragma once
 
 #include <cmath>
@@ -14,8 +15,13 @@ namespace tetralux::preint {
 /// What the look-up texts read beside texels.
 struct TableUniforms {
     explicit TableUniforms(const PreintegrationTable& table)
-        : tableSize(table.size), tableSlices(table.slices), tableLengthMax(table.lengthMax), tableLengthScale(table.lengthScale),
-          tableZones(static_cast<int>(table.zones.size())), tableWarp(table.warp), tableRamp(table.ramps) {
+        : tableSize(table.size),
+          tableSlices(table.slices),
+          tableLengthMax(table.lengthMax),
+          tableLengthScale(table.lengthScale),
+          tableZones(static_cast<int>(table.zones.size())),
+          tableWarp(table.warp),
+          tableRamp(table.ramps) {
         zoneAfter.push_back(0);
         for (const Interface& one : table.interfaces) {
             interfaceValue.push_back(one.value);
@@ -32,21 +38,23 @@ struct TableUniforms {
     std::vector<int> zoneAfter;
 };
 
-// The texts' functions become members: they see the uniforms as GLSL functions see theirs. `Fetch` is called with whole texel
-// coordinates (front, back including zone, slice) and returns a vec4.
+// The texts' functions become members: they see the uniforms as GLSL functions see theirs. `Fetch` is called with whole
+// texel coordinates (front, back including zone, slice) and returns a vec4.
 #define TETRALUX_INTERFACES 1
 #define TETRALUX_INTERFACE_COUNT static_cast<int>(interfaceValue.size())
 #define TETRALUX_WARPS 1  // also where the mapping is linear: `warp` holds either
 #define TETRALUX_WARP_COUNT static_cast<int>(tableWarp.size())
 #define TETRALUX_RAMPS 1
 #define TETRALUX_RAMP_COUNT static_cast<int>(tableRamp.size())
-#define TETRALUX_TABLE_READER(name, texelFunction)                                        \
-    using real = double;                                                                  \
-    using vec3 = glm::dvec3;                                                              \
-    using vec4 = glm::dvec4;                                                              \
-    Fetch fetch;                                                                          \
-    name(const PreintegrationTable& table, Fetch f) : TableUniforms(table), fetch(f) {}   \
-    glm::dvec4 tableTexel(double u, double v, double w) { return texelFunction; }
+#define TETRALUX_TABLE_READER(name, texelFunction)                                      \
+    using real = double;                                                                \
+    using vec3 = glm::dvec3;                                                            \
+    using vec4 = glm::dvec4;                                                            \
+    Fetch fetch;                                                                        \
+    name(const PreintegrationTable& table, Fetch f) : TableUniforms(table), fetch(f) {} \
+    glm::dvec4 tableTexel(double u, double v, double w) {                               \
+        return texelFunction;                                                           \
+    }
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter"  // each variant of the texts leaves some unread
@@ -75,18 +83,20 @@ glm::dvec4 bilinear(Fetch& fetch, const Position& u, const Position& v, int slic
 
 template <class Fetch>
 struct ScaleInvariant : TableUniforms {
-    TETRALUX_TABLE_READER(ScaleInvariant, (static_cast<void>(w), bilinear(fetch, Position(u, columns()), Position(v, rows()), 0)))
+    TETRALUX_TABLE_READER(ScaleInvariant,
+                          (static_cast<void>(w), bilinear(fetch, Position(u, columns()), Position(v, rows()), 0)))
     int columns() const { return static_cast<int>(tableSize); }
     int rows() const { return columns() * tableZones; }
 #define TETRALUX_SCALE_INVARIANT 1
-#include <preint/table_lookup.glsl>
 #include <preint/gather_segment.glsl>
+#include <preint/table_lookup.glsl>
 #undef TETRALUX_SCALE_INVARIANT
 };
 
 template <class Fetch>
 struct Standard : TableUniforms {
-    TETRALUX_TABLE_READER(Standard, trilinear(Position(u, columns()), Position(v, rows()), Position(w, static_cast<int>(tableSlices))))
+    TETRALUX_TABLE_READER(Standard, trilinear(Position(u, columns()), Position(v, rows()),
+                                              Position(w, static_cast<int>(tableSlices))))
     int columns() const { return static_cast<int>(tableSize); }
     int rows() const { return columns() * tableZones; }
     glm::dvec4 trilinear(const Position& u, const Position& v, const Position& w) {
@@ -94,8 +104,8 @@ struct Standard : TableUniforms {
         return w.weight == 0.0 ? low : glm::mix(low, bilinear(fetch, u, v, w.high), w.weight);
     }
 #define TETRALUX_SCALE_INVARIANT 0
-#include <preint/table_lookup.glsl>
 #include <preint/gather_segment.glsl>
+#include <preint/table_lookup.glsl>
 #undef TETRALUX_SCALE_INVARIANT
 };
 

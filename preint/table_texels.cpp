@@ -30,22 +30,25 @@ struct Mapping {
 
 }  // namespace
 
-TableTexels::TableTexels(const ExactIntegral& exact, const PreintegrationTable& layout) : exact_(exact), layout_(layout) {
+TableTexels::TableTexels(const ExactIntegral& exact, const PreintegrationTable& layout)
+    : exact_(exact), layout_(layout) {
     const double extinction = exact.largestExtinction(layout.zones.front().x, layout.zones.back().y);
     thinLength_ = extinction > 0.0 ? 1e-9 / extinction : 1.0;
 }
 
 double TableTexels::lengthOf(int slice) const {
     if (slice == 0) return thinLength_;
-    return Mapping().lengthOfFraction(Mapping().fractionOfTexel(slice + 0.5, layout_.slices), layout_.lengthMax, layout_.lengthScale);
+    return Mapping().lengthOfFraction(Mapping().fractionOfTexel(slice + 0.5, layout_.slices), layout_.lengthMax,
+                                      layout_.lengthScale);
 }
 
-glm::vec4 TableTexels::entry(const SegmentResult& segment, double path, double front, double back, const glm::dvec2& zone) const {
+glm::vec4 TableTexels::entry(const SegmentResult& segment, double path, double front, double back,
+                             const glm::dvec2& zone) const {
     const double opacity = segment.opacity();
     constexpr double leastOpacity = 1e-290;  // below it the ratio has no digits left
-    const glm::dvec3 color = opacity > leastOpacity
-                                 ? segment.color / opacity
-                                 : exact_.nearestVisibleColor(std::min(front, back), std::max(front, back), zone.x, zone.y);
+    const glm::dvec3 color = opacity > leastOpacity ? segment.color / opacity
+                                                    : exact_.nearestVisibleColor(std::min(front, back),
+                                                                                 std::max(front, back), zone.x, zone.y);
     return glm::vec4(glm::dvec4(color, segment.opticalDepth / path));
 }
 

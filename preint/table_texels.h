@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// The content of single texels, straight from the exact integral: what builders fill in and what the choice of a size looks at before
-/// anything is built.
+/// The content of single texels, straight from the exact integral: what builders fill in and what the choice of a size
+/// looks at before anything is built.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -11,7 +11,8 @@
 
 namespace tetralux::preint {
 
-/// Texels of a table with the given layout (zones, size, slices, length axis); its own `texels` need not exist. Neither argument is copied.
+/// Texels of a table with the given layout (zones, size, slices, length axis); its own `texels` need not exist. Neither
+/// argument is copied.
 class TableTexels {
 public:
     TableTexels(const ExactIntegral& exact, const PreintegrationTable& layout);
@@ -19,7 +20,7 @@ public:
     /// Front texel `i`, back texel `row` = zone·size + j, slice `k`: (mean colour, mean extinction).
     glm::vec4 texel(int i, int row, int k) const;
 
-    double lengthOf(int slice) const;                          ///< mesh units; the first slice stands for the limit of no length
+    double lengthOf(int slice) const;  ///< mesh units; the first slice stands for the limit of no length
 
     /// The entry of a segment from its integral over optical depth per `path` (scalar difference or length).
     glm::vec4 entry(const SegmentResult& segment, double path, double front, double back, const glm::dvec2& zone) const;

@@ -15,7 +15,9 @@
 namespace tetralux::preint {
 namespace {
 
-double interpolated(double low, double high, double fraction) { return std::lerp(low, high, fraction); }
+double interpolated(double low, double high, double fraction) {
+    return std::lerp(low, high, fraction);
+}
 glm::dvec3 interpolated(const glm::dvec3& low, const glm::dvec3& high, double fraction) {
     return glm::mix(low, high, fraction);
 }
@@ -24,8 +26,8 @@ glm::dvec3 interpolated(const glm::dvec3& low, const glm::dvec3& high, double fr
 template <class Node, class Value>
 Value valueAt(const std::vector<Node>& nodes, Value Node::*value, double scalar, const Value& ifEmpty) {
     if (nodes.empty()) return ifEmpty;
-    const auto above =
-        std::upper_bound(nodes.begin(), nodes.end(), scalar, [](double s, const Node& node) { return s < node.scalar; });
+    const auto above = std::upper_bound(nodes.begin(), nodes.end(), scalar,
+                                        [](double s, const Node& node) { return s < node.scalar; });
     if (above == nodes.begin()) return nodes.front().*value;
     if (above == nodes.end()) return nodes.back().*value;
     const Node& below = *std::prev(above);
@@ -36,7 +38,8 @@ Value valueAt(const std::vector<Node>& nodes, Value Node::*value, double scalar,
 /// Nodes ascend; a scalar may stand twice (a jump), not more often.
 void requireNodeOrder(const JsonPlace& list, std::size_t index, double beforeLast, double last, double scalar) {
     const JsonPlace place = list.element(index);
-    if (scalar < last) place.fail(fmt::format("has scalar {}, below the {} before it; sort the nodes by scalar", scalar, last));
+    if (scalar < last)
+        place.fail(fmt::format("has scalar {}, below the {} before it; sort the nodes by scalar", scalar, last));
     if (index >= 2 && scalar == last && last == beforeLast) {
         place.fail(fmt::format("is the third node at scalar {}; two make a jump, leave one out", scalar));
     }
@@ -48,10 +51,12 @@ std::vector<ColorNode> colorNodes(const JsonPlace& list) {
     std::vector<ColorNode> nodes;
     for (std::size_t i = 0; i < list.size(); ++i) {
         const JsonPlace node = list.element(i).array("[s, r, g, b]");
-        if (node.size() != 4) node.fail(fmt::format("has {} numbers, a color node has four: [s, r, g, b]", node.size()));
+        if (node.size() != 4)
+            node.fail(fmt::format("has {} numbers, a color node has four: [s, r, g, b]", node.size()));
         const char* what = "a color channel (divide channels of 0 to 255 by 255)";
-        nodes.push_back({node.element(0).number(),
-                         {node.element(1).fraction(what), node.element(2).fraction(what), node.element(3).fraction(what)}});
+        nodes.push_back(
+            {node.element(0).number(),
+             {node.element(1).fraction(what), node.element(2).fraction(what), node.element(3).fraction(what)}});
         if (i > 0) requireNodeOrder(list, i, nodes[i > 1 ? i - 2 : 0].scalar, nodes[i - 1].scalar, nodes[i].scalar);
     }
     return nodes;
@@ -63,9 +68,11 @@ std::vector<ExtinctionNode> extinctionNodes(const JsonPlace& list) {
     std::vector<ExtinctionNode> nodes;
     for (std::size_t i = 0; i < list.size(); ++i) {
         const JsonPlace node = list.element(i).array("[s, tau]");
-        if (node.size() != 2) node.fail(fmt::format("has {} numbers, an extinction node has two: [s, tau]", node.size()));
+        if (node.size() != 2)
+            node.fail(fmt::format("has {} numbers, an extinction node has two: [s, tau]", node.size()));
         const double extinction = node.element(1).number();
-        if (extinction < 0.0) node.element(1).fail(fmt::format("is {}, but extinction must not be negative", extinction));
+        if (extinction < 0.0)
+            node.element(1).fail(fmt::format("is {}, but extinction must not be negative", extinction));
         nodes.push_back({node.element(0).number(), extinction});
         if (i > 0) requireNodeOrder(list, i, nodes[i > 1 ? i - 2 : 0].scalar, nodes[i - 1].scalar, nodes[i].scalar);
     }
@@ -78,20 +85,25 @@ std::vector<Isosurface> isosurfaces(const JsonPlace& list) {
     std::vector<Isosurface> surfaces;
     for (std::size_t i = 0; i < list.size(); ++i) {
         const JsonPlace one = list.element(i);
-        if (!one.value().is_object()) one.fail("must be an object: {\"value\": v, \"opacity\": a, \"color\": [r, g, b]}");
+        if (!one.value().is_object())
+            one.fail("must be an object: {\"value\": v, \"opacity\": a, \"color\": [r, g, b]}");
         requireKnownKeys(one, {"value", "opacity", "color"});
         for (const char* key : {"value", "opacity", "color"}) {
             if (!one.value().contains(key)) one.fail(fmt::format("has no \"{}\"; add it", key));
         }
-        surfaces.push_back({one.member("value").number(), one.member("opacity").fraction("an opacity"), one.member("color").color()});
+        surfaces.push_back(
+            {one.member("value").number(), one.member("opacity").fraction("an opacity"), one.member("color").color()});
     }
-    std::stable_sort(surfaces.begin(), surfaces.end(), [](const Isosurface& a, const Isosurface& b) { return a.value < b.value; });
+    std::stable_sort(surfaces.begin(), surfaces.end(),
+                     [](const Isosurface& a, const Isosurface& b) { return a.value < b.value; });
     return surfaces;
 }
 
 TransferFunction functionFrom(const JsonPlace& root) {
     if (!root.value().is_object()) {
-        root.fail("is not a transfer function; write an object {\"color\": …, \"extinction\": …} or export a color map from ParaView");
+        root.fail(
+            "is not a transfer function; write an object {\"color\": …, \"extinction\": …} or export a color map from "
+            "ParaView");
     }
     requireKnownKeys(root, {"color", "extinction", "isosurfaces", "normalized", "extinctionPerExtent"});
     auto has = [&](const char* key) { return root.value().contains(key); };
@@ -103,9 +115,12 @@ TransferFunction functionFrom(const JsonPlace& root) {
     if (has("extinctionPerExtent")) function.extinctionPerExtent = root.member("extinctionPerExtent").boolean();
 
     if (function.extinction.empty() && function.isosurfaces.empty()) {
-        root.fail("has neither \"extinction\" nor \"isosurfaces\", so nothing could be seen; add \"extinction\": [[s, tau], …]");
+        root.fail(
+            "has neither \"extinction\" nor \"isosurfaces\", so nothing could be seen; add \"extinction\": [[s, tau], "
+            "…]");
     }
-    if (function.color.empty() && !function.extinction.empty()) root.fail("has no \"color\"; add \"color\": [[s, r, g, b], …]");
+    if (function.color.empty() && !function.extinction.empty())
+        root.fail("has no \"color\"; add \"color\": [[s, r, g, b], …]");
     if (function.color.empty()) {  // isosurfaces only: modes that colour by the scalar alone use their colours
         for (const Isosurface& surface : function.isosurfaces) {
             if (function.color.empty() || surface.value > function.color.back().scalar) {
@@ -137,9 +152,11 @@ TransferFunction parseTransferFunction(const std::string& json, const std::strin
     try {
         document = nlohmann::json::parse(json);
     } catch (const nlohmann::json::exception& error) {
-        throw std::runtime_error(fmt::format("{}: is not valid JSON: {}; mend it there", origin, withoutPrefix(error.what())));
+        throw std::runtime_error(
+            fmt::format("{}: is not valid JSON: {}; mend it there", origin, withoutPrefix(error.what())));
     }
-    return isParaViewColorMap(document) ? paraViewColorMap(document, origin) : functionFrom(JsonPlace(document, origin));
+    return isParaViewColorMap(document) ? paraViewColorMap(document, origin)
+                                        : functionFrom(JsonPlace(document, origin));
 }
 
 TransferFunction readTransferFunction(const std::string& path) {
@@ -161,7 +178,9 @@ TransferFunction resolved(const TransferFunction& function, double scalarMin, do
         // A constant field has no range: it shows as the middle of one.
         const double half = scalarMax > scalarMin ? 0.0 : 0.5 * std::max(1.0, std::abs(scalarMin));
         const double low = scalarMin - half, high = scalarMax + half;
-        const auto scalarOf = [&](double fraction) { return std::clamp(std::lerp(low, high, fraction), -largest, largest); };
+        const auto scalarOf = [&](double fraction) {
+            return std::clamp(std::lerp(low, high, fraction), -largest, largest);
+        };
         for (ColorNode& node : absolute.color) node.scalar = scalarOf(node.scalar);
         for (ExtinctionNode& node : absolute.extinction) node.scalar = scalarOf(node.scalar);
         for (Isosurface& surface : absolute.isosurfaces) surface.value = scalarOf(surface.value);

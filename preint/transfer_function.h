@@ -36,7 +36,7 @@ struct TransferFunction {
     /// integral), so that presets look the same in any units.
     bool extinctionPerExtent = false;
 
-    glm::dvec3 colorAt(double scalar) const;       ///< at a jump: the value from above
+    glm::dvec3 colorAt(double scalar) const;  ///< at a jump: the value from above
     double extinctionAt(double scalar) const;
 };
 

@@ -11,11 +11,14 @@ namespace tetralux::preint {
 namespace {
 
 void expectNear(const glm::dvec3& color, const glm::dvec3& expected, double tolerance, const std::string& what) {
-    for (int channel = 0; channel < 3; ++channel) EXPECT_NEAR(color[channel], expected[channel], tolerance) << what << " channel " << channel;
+    for (int channel = 0; channel < 3; ++channel)
+        EXPECT_NEAR(color[channel], expected[channel], tolerance) << what << " channel " << channel;
 }
 
-// Expected values are those of vtkColorTransferFunction (VTK 9.1) between the ends of "Cool to Warm". VTK rounds its own matrices, hence 1e-5.
-const glm::dvec3 cool{0.231373, 0.298039, 0.752941}, warm{0.705882, 0.0156863, 0.14902}, gray{0.865003, 0.865003, 0.865003};
+// Expected values are those of vtkColorTransferFunction (VTK 9.1) between the ends of "Cool to Warm". VTK rounds its
+// own matrices, hence 1e-5.
+const glm::dvec3 cool{0.231373, 0.298039, 0.752941}, warm{0.705882, 0.0156863, 0.14902},
+    gray{0.865003, 0.865003, 0.865003};
 
 struct Known {
     ColorSpace space;
@@ -25,16 +28,23 @@ struct Known {
 
 TEST(ColorSpace, InterpolatesAsVtkDoes) {
     const Known table[] = {
-        {ColorSpace::Rgb, 0.25, {0.350000, 0.227451, 0.601961}},       {ColorSpace::Hsv, 0.25, {0.376427, 0.174936, 0.741176}},
-        {ColorSpace::Hsv, 0.9, {0.710588, 0.036048, 0.296856}},        {ColorSpace::Lab, 0.1, {0.355755, 0.280486, 0.689156}},
-        {ColorSpace::Lab, 0.6, {0.613357, 0.179330, 0.383717}},        {ColorSpace::Diverging, 0.1, {0.351735, 0.468506, 0.890376}},
-        {ColorSpace::Diverging, 0.25, {0.553318, 0.688635, 0.995188}}, {ColorSpace::Diverging, 0.5, {0.865395, 0.865410, 0.865396}},
-        {ColorSpace::Diverging, 0.9, {0.842251, 0.326619, 0.266613}},  {ColorSpace::Step, 0.1, warm},
+        {ColorSpace::Rgb, 0.25, {0.350000, 0.227451, 0.601961}},
+        {ColorSpace::Hsv, 0.25, {0.376427, 0.174936, 0.741176}},
+        {ColorSpace::Hsv, 0.9, {0.710588, 0.036048, 0.296856}},
+        {ColorSpace::Lab, 0.1, {0.355755, 0.280486, 0.689156}},
+        {ColorSpace::Lab, 0.6, {0.613357, 0.179330, 0.383717}},
+        {ColorSpace::Diverging, 0.1, {0.351735, 0.468506, 0.890376}},
+        {ColorSpace::Diverging, 0.25, {0.553318, 0.688635, 0.995188}},
+        {ColorSpace::Diverging, 0.5, {0.865395, 0.865410, 0.865396}},
+        {ColorSpace::Diverging, 0.9, {0.842251, 0.326619, 0.266613}},
+        {ColorSpace::Step, 0.1, warm},
     };
     for (const Known& known : table) {
-        expectNear(interpolateColor(known.space, cool, warm, known.fraction), known.color, 1e-5, "fraction " + std::to_string(known.fraction));
+        expectNear(interpolateColor(known.space, cool, warm, known.fraction), known.color, 1e-5,
+                   "fraction " + std::to_string(known.fraction));
     }
-    expectNear(interpolateColor(ColorSpace::Diverging, cool, gray, 0.2), {0.351956, 0.468420, 0.890252}, 1e-5, "towards gray");
+    expectNear(interpolateColor(ColorSpace::Diverging, cool, gray, 0.2), {0.351956, 0.468420, 0.890252}, 1e-5,
+               "towards gray");
 }
 
 TEST(ColorSpace, HueTurnsTheShortWayOnlyWhenWrapped) {
@@ -49,13 +59,15 @@ TEST(ColorSpace, SamplingFollowsTheSpaceClosely) {
         function.color = sampledInRgb(space, {{10.0, cool}, {20.0, warm}});
         EXPECT_LE(function.color.size(), 130u);
         for (int i = 0; i <= 1000; ++i) {
-            expectNear(function.colorAt(10.0 + 0.01 * i), interpolateColor(space, cool, warm, 0.001 * i), 1.5e-3, "sample " + std::to_string(i));
+            expectNear(function.colorAt(10.0 + 0.01 * i), interpolateColor(space, cool, warm, 0.001 * i), 1.5e-3,
+                       "sample " + std::to_string(i));
         }
     }
 }
 
 TEST(Presets, AreWholeAndVisible) {
-    EXPECT_EQ(presetNames(), (std::vector<std::string>{"viridis", "inferno", "cool-to-warm", "grayscale", "rainbow", "black-body", "blue-to-yellow"}));
+    EXPECT_EQ(presetNames(), (std::vector<std::string>{"viridis", "inferno", "cool-to-warm", "grayscale", "rainbow",
+                                                       "black-body", "blue-to-yellow"}));
     for (const std::string& name : presetNames()) {
         const TransferFunction function = preset(name);
         EXPECT_TRUE(function.normalized && function.extinctionPerExtent) << name;
@@ -70,8 +82,10 @@ TEST(Presets, HaveTheirPublishedColors) {
     // matplotlib's viridis[128] and inferno[64], which are not among the thinned nodes
     expectNear(preset("viridis").colorAt(128.0 / 255.0), {0.127568, 0.566949, 0.550556}, 1.0 / 510.0 + 1e-6, "viridis");
     expectNear(preset("inferno").colorAt(64.0 / 255.0), {0.341500, 0.062325, 0.429425}, 1.0 / 510.0 + 1e-6, "inferno");
-    expectNear(preset("cool-to-warm").colorAt(0.1), {0.351956, 0.468420, 0.890252}, 1.5e-3, "cool-to-warm as VTK has it");
-    expectNear(preset("rainbow").colorAt(0.125), interpolateColor(ColorSpace::Hsv, {0, 0, 1}, {1, 0, 0}, 0.125), 1e-12, "rainbow");
+    expectNear(preset("cool-to-warm").colorAt(0.1), {0.351956, 0.468420, 0.890252}, 1.5e-3,
+               "cool-to-warm as VTK has it");
+    expectNear(preset("rainbow").colorAt(0.125), interpolateColor(ColorSpace::Hsv, {0, 0, 1}, {1, 0, 0}, 0.125), 1e-12,
+               "rainbow");
     expectNear(preset("black-body").colorAt(0.6), {230.0 / 255.0, 115.0 / 255.0, 0.0}, 1e-12, "black-body");
 }
 
@@ -80,15 +94,19 @@ TEST(Presets, UnknownNameListsTheKnownOnes) {
         preset("jet");
         FAIL();
     } catch (const std::runtime_error& error) {
-        EXPECT_STREQ(error.what(), "there is no transfer function preset \"jet\"; known are viridis, inferno, cool-to-warm, grayscale, "
-                                   "rainbow, black-body, blue-to-yellow");
+        EXPECT_STREQ(
+            error.what(),
+            "there is no transfer function preset \"jet\"; known are viridis, inferno, cool-to-warm, grayscale, "
+            "rainbow, black-body, blue-to-yellow");
     }
 }
 
 TEST(ParaViewColorMap, OpacityFollowsMidpointAndSharpness) {
-    // opacity 0.1 → 0.9, midpoint 0.3, sharpness 0.4 from 0 to 1; sharpness 1 (a step) from 2 to 3. Values of vtkPiecewiseFunction.
+    // opacity 0.1 → 0.9, midpoint 0.3, sharpness 0.4 from 0 to 1; sharpness 1 (a step) from 2 to 3. Values of
+    // vtkPiecewiseFunction.
     const TransferFunction function = parseTransferFunction(
-        R"([{"ColorSpace": "RGB", "RGBPoints": [0, 0, 0, 0, 3, 1, 1, 1], "Points": [0, 0.1, 0.3, 0.4, 1, 0.9, 0.5, 0, 2, 0.1, 0.3, 1, 3, 0.9, 0.5, 0]}])", "map.json");
+        R"([{"ColorSpace": "RGB", "RGBPoints": [0, 0, 0, 0, 3, 1, 1, 1], "Points": [0, 0.1, 0.3, 0.4, 1, 0.9, 0.5, 0, 2, 0.1, 0.3, 1, 3, 0.9, 0.5, 0]}])",
+        "map.json");
     const double unit = 50.0;  // extinction per extent of opacity 1
     EXPECT_TRUE(function.extinctionPerExtent);
     EXPECT_FALSE(function.normalized);
@@ -108,8 +126,8 @@ TEST(ParaViewColorMap, PresetRangeMeansTheFieldsRange) {
 }
 
 TEST(ParaViewColorMap, StepsBecomeJumps) {
-    const TransferFunction function =
-        parseTransferFunction(R"([{"ColorSpace": "Step", "RGBPoints": [0, 1, 0, 0, 1, 0, 1, 0, 2, 0, 0, 1]}])", "map.json");
+    const TransferFunction function = parseTransferFunction(
+        R"([{"ColorSpace": "Step", "RGBPoints": [0, 1, 0, 0, 1, 0, 1, 0, 2, 0, 0, 1]}])", "map.json");
     EXPECT_EQ(function.colorAt(0.5), glm::dvec3(0, 1, 0));
     EXPECT_EQ(function.colorAt(1.5), glm::dvec3(0, 0, 1));
 }

@@ -21,11 +21,12 @@ TableOptions evenFirst() {
     return options;
 }
 
-// Nodes at quarters fall on texels of a size with (size − 1) divisible by 4: the wanted error needs neither warp nor ramps.
+// Nodes at quarters fall on texels of a size with (size − 1) divisible by 4: the wanted error needs neither warp nor
+// ramps.
 TEST(EvenTexels, NodesAtRoundFractionsNeedNoWarp) {
     const ExactIntegral exact(fiveNodes(0.25));
-    for (const PreintegrationTable& table : {buildScaleInvariantTable(exact, 0, 1, evenFirst()),
-                                             buildStandardTable(exact, 0, 1, 0.02, evenFirst())}) {
+    for (const PreintegrationTable& table :
+         {buildScaleInvariantTable(exact, 0, 1, evenFirst()), buildStandardTable(exact, 0, 1, 0.02, evenFirst())}) {
         EXPECT_FALSE(table.warped);
         EXPECT_TRUE(table.ramps.empty());
         EXPECT_EQ((table.size - 1) % 4, 0);

@@ -17,12 +17,14 @@ namespace {
 constexpr Integral bothIntegrals[] = {Integral::Standard, Integral::ScaleInvariant};
 
 void expectRelative(double value, double expected, double tolerance, const std::string& what) {
-    EXPECT_LE(std::abs(value - expected), tolerance * std::abs(expected) + 1e-300) << what << ": " << value << " against " << expected;
+    EXPECT_LE(std::abs(value - expected), tolerance * std::abs(expected) + 1e-300)
+        << what << ": " << value << " against " << expected;
 }
 
 void expectSame(const SegmentResult& result, const SegmentResult& expected, double tolerance, const std::string& what) {
     for (int channel = 0; channel < 3; ++channel) {
-        expectRelative(result.color[channel], expected.color[channel], tolerance, what + " color " + std::to_string(channel));
+        expectRelative(result.color[channel], expected.color[channel], tolerance,
+                       what + " color " + std::to_string(channel));
     }
     if (std::isinf(expected.opticalDepth)) {
         EXPECT_EQ(result.opticalDepth, expected.opticalDepth) << what;
@@ -61,7 +63,8 @@ TEST(ExactIntegral, LinearExtinctionHasTheDepthOfItsMean) {
     const ExactIntegral exact(ramp);
     expectRelative(exact.segment(0.1, 0.9, 2.0, Integral::Standard).opticalDepth, 20.0, 1e-15, "standard");
     expectRelative(exact.segment(0.9, 0.1, 2.0, Integral::ScaleInvariant).opticalDepth, 8.0, 1e-15, "data space");
-    expectRelative(exact.segment(0.1, 0.9, 2.0, Integral::Standard).transmittance(), std::exp(-20.0), 1e-13, "exp(−∫τ)");
+    expectRelative(exact.segment(0.1, 0.9, 2.0, Integral::Standard).transmittance(), std::exp(-20.0), 1e-13,
+                   "exp(−∫τ)");
 }
 
 // Colour linear, extinction constant: C = c_f(1 − Ψ) + c_b(Ψ − e^(−D)) with Ψ = (1 − e^(−D))/D.
@@ -72,10 +75,12 @@ TEST(ExactIntegral, LinearColorOverConstantExtinctionHasTheClosedForm) {
     const ExactIntegral exact(function);
     for (double depth = 0.125; depth < 700.0; depth *= 1.37) {
         const SegmentResult result = exact.segment(0.0, 1.0, depth, Integral::Standard);
-        const long double psi = -std::expm1(-static_cast<long double>(depth)) / depth, zeta = std::exp(-static_cast<long double>(depth));
+        const long double psi = -std::expm1(-static_cast<long double>(depth)) / depth,
+                          zeta = std::exp(-static_cast<long double>(depth));
         expectRelative(result.color.x, static_cast<double>(psi - zeta), 1e-13, "back weight");
         expectRelative(result.color.y, static_cast<double>(1.0L - psi), 1e-13, "front weight");
-        expectRelative(result.color.z, static_cast<double>(0.25L * (1.0L - psi) + 0.75L * (psi - zeta)), 1e-13, "mixed");
+        expectRelative(result.color.z, static_cast<double>(0.25L * (1.0L - psi) + 0.75L * (psi - zeta)), 1e-13,
+                       "mixed");
     }
 }
 
@@ -100,12 +105,14 @@ TEST(LinearPieceWeights, ThinPiecesHaveTheKnownLimit) {
     }
 }
 
-// Great depth a at the front: u ≈ a t, so backWeight = ∫ t dT → 1/a; starting at 0, u = b t²/2 and backWeight → √(π/(2b)).
+// Great depth a at the front: u ≈ a t, so backWeight = ∫ t dT → 1/a; starting at 0, u = b t²/2 and backWeight →
+// √(π/(2b)).
 TEST(LinearPieceWeights, DeepPiecesHaveTheirAsymptotes) {
     const double depths[] = {1e6, 1e9, 1e12, 1e15};
     for (const double depth : depths) {
         expectRelative(linearPieceWeights(depth, depth).backWeight, 1.0 / depth, 1e-12, "even");
-        expectRelative(linearPieceWeights(0.0, depth).backWeight, std::sqrt(std::acos(-1.0) / (2.0 * depth)), 1e-12, "from zero");
+        expectRelative(linearPieceWeights(0.0, depth).backWeight, std::sqrt(std::acos(-1.0) / (2.0 * depth)), 1e-12,
+                       "from zero");
         EXPECT_NEAR(linearPieceWeights(0.0, depth).frontWeight + linearPieceWeights(0.0, depth).backWeight, 1.0, 1e-13);
     }
     EXPECT_EQ(linearPieceWeights(1e300, 0.0).frontWeight, 1.0);
@@ -121,8 +128,11 @@ TEST(LinearPieceWeights, AgreesWithSimpsonOnBothSidesOfEveryRuleChange) {
             for (const double depth : {change * 0.999, change * 1.001}) {
                 const double front = 2.0 * depth * share, back = 2.0 * depth - front;
                 const LinearPieceWeights weights = linearPieceWeights(front, back);
-                auto mass = [&](long double t) { return (front + (back - front) * t) * std::exp(-(front * t + (back - front) * t * t / 2.0L)); };
-                const auto frontWeight = oracle::simpson([&](long double t) { return (1.0L - t) * mass(t); }, 0.0L, 1.0L);
+                auto mass = [&](long double t) {
+                    return (front + (back - front) * t) * std::exp(-(front * t + (back - front) * t * t / 2.0L));
+                };
+                const auto frontWeight =
+                    oracle::simpson([&](long double t) { return (1.0L - t) * mass(t); }, 0.0L, 1.0L);
                 const auto backWeight = oracle::simpson([&](long double t) { return t * mass(t); }, 0.0L, 1.0L);
                 expectRelative(weights.frontWeight, static_cast<double>(frontWeight), 3e-13, "front");
                 expectRelative(weights.backWeight, static_cast<double>(backWeight), 3e-13, "back");
@@ -140,8 +150,10 @@ TEST(ExactIntegral, AgreesWithSimpsonQuadratureOfTheDefinition) {
             const double front = scalar(random), length = std::pow(10.0, exponent(random));
             const double back = sample % 3 == 0 ? front + 1e-3 * scalar(random) : scalar(random);
             for (const Integral integral : bothIntegrals) {
-                expectSame(exact.segment(front, back, length, integral), oracle::segment(function, front, back, length, integral), 1e-12,
-                           "from " + std::to_string(front) + " to " + std::to_string(back) + " over " + std::to_string(length));
+                expectSame(exact.segment(front, back, length, integral),
+                           oracle::segment(function, front, back, length, integral), 1e-12,
+                           "from " + std::to_string(front) + " to " + std::to_string(back) + " over " +
+                               std::to_string(length));
             }
         }
     }
@@ -150,14 +162,16 @@ TEST(ExactIntegral, AgreesWithSimpsonQuadratureOfTheDefinition) {
 TEST(ExactIntegral, PartsCompositeToTheWhole) {
     std::mt19937_64 random(11);
     std::uniform_real_distribution<double> scalar(-0.1, 1.1), part(0.0, 1.0), exponent(-5.0, 1.0);
-    for (const TransferFunction& function : {samples::smooth(), samples::narrowTents(), samples::jumps(), samples::smoothWithPeaks()}) {
+    for (const TransferFunction& function :
+         {samples::smooth(), samples::narrowTents(), samples::jumps(), samples::smoothWithPeaks()}) {
         const ExactIntegral exact(function);
         for (int sample = 0; sample < 2000; ++sample) {
             const double front = scalar(random), back = scalar(random), length = std::pow(10.0, exponent(random));
             const double middle = front + (back - front) * part(random), share = (middle - front) / (back - front);
             for (const Integral integral : bothIntegrals) {
-                const SegmentResult parts = compositeOf(exact.segment(front, middle, length * share, integral),
-                                                        exact.segment(middle, back, length * ((back - middle) / (back - front)), integral));
+                const SegmentResult parts =
+                    compositeOf(exact.segment(front, middle, length * share, integral),
+                                exact.segment(middle, back, length * ((back - middle) / (back - front)), integral));
                 expectSame(parts, exact.segment(front, back, length, integral), 1e-12, "parts");
             }
         }
@@ -176,13 +190,16 @@ TEST(ExactIntegral, ExtinctionIntegralIsTheDepthInDataSpace) {
     EXPECT_DOUBLE_EQ(exact.extinctionIntegral(-2.0), -2.0);
 }
 
-// Crossing is (front < v) ≠ (back < v): arriving at v from below counts, leaving v upwards does not; downwards it is the other way round.
+// Crossing is (front < v) ≠ (back < v): arriving at v from below counts, leaving v upwards does not; downwards it is
+// the other way round.
 TEST(ExactIntegral, IsosurfaceIsCrossedOnceByNeighbouringSegments) {
     TransferFunction function = samples::peaks();
     const ExactIntegral exact(function);
     const double v = function.isosurfaces[0].value, below = v - 0.1, above = v + 0.1;
     const double once = -std::log1p(-0.4);
-    auto depth = [&](double front, double back) { return exact.segment(front, back, 1.0, Integral::Standard).opticalDepth; };
+    auto depth = [&](double front, double back) {
+        return exact.segment(front, back, 1.0, Integral::Standard).opticalDepth;
+    };
     EXPECT_DOUBLE_EQ(depth(below, v), once);
     EXPECT_EQ(depth(v, above), 0.0);
     EXPECT_EQ(depth(above, v), 0.0);

@@ -5,8 +5,8 @@
 #include <limits>
 #include <random>
 
-#include <glm/common.hpp>
 #include <gtest/gtest.h>
+#include <glm/common.hpp>
 
 #include <preint/table_texels.h>
 
@@ -43,8 +43,8 @@ protected:
     ExactIntegral exact_{GetParam().function};
 };
 
-// Segments of its own choosing: the builder's samples must not be all that the error holds for. Random segments hit the worst
-// spots less often than the builder's, but may find others, hence twice the wanted error.
+// Segments of its own choosing: the builder's samples must not be all that the error holds for. Random segments hit the
+// worst spots less often than the builder's, but may find others, hence twice the wanted error.
 TEST_P(TableAccuracy, SegmentsKeepTheWantedError) {
     for (const Integral integral : {Integral::Standard, Integral::ScaleInvariant}) {
         for (const double wanted : {1e-3, 1e-4}) {
@@ -55,10 +55,13 @@ TEST_P(TableAccuracy, SegmentsKeepTheWantedError) {
             double largest = 0.0;
             for (int i = 0; i < 4000; ++i) {
                 const double front = unit(random), step = std::pow(10.0, -4.0 * unit(random)) * (unit(random) - 0.5);
-                const double back = i % 2 == 0 ? unit(random) : std::min(1.0, std::max(0.0, front + step)), length = lengthMax * unit(random);
-                largest = std::max(largest, differenceOf(lookUpSegment(built, front, back, length), exact_.segment(front, back, length, integral)));
+                const double back = i % 2 == 0 ? unit(random) : std::min(1.0, std::max(0.0, front + step)),
+                             length = lengthMax * unit(random);
+                largest = std::max(largest, differenceOf(lookUpSegment(built, front, back, length),
+                                                         exact_.segment(front, back, length, integral)));
             }
-            EXPECT_LE(largest, 2.0 * wanted) << "size " << built.size << " × " << built.slices << ", " << built.zones.size() << " zones";
+            EXPECT_LE(largest, 2.0 * wanted)
+                << "size " << built.size << " × " << built.slices << ", " << built.zones.size() << " zones";
         }
     }
 }
@@ -73,7 +76,9 @@ TEST_P(TableAccuracy, RaysOfManyThinSegmentsKeepTheWantedError) {
             for (const double start : {0.0, 0.37, 1.0}) {
                 SegmentResult looked, exact;
                 constexpr int steps = 1000;
-                auto scalarAt = [&](double t) { return 0.5 - 0.5 * std::cos(std::acos(-1.0) * (start + 2.0 * turns * t)); };
+                auto scalarAt = [&](double t) {
+                    return 0.5 - 0.5 * std::cos(std::acos(-1.0) * (start + 2.0 * turns * t));
+                };
                 double t = 0.0;
                 for (int i = 0; i < steps; ++i) {
                     const double next = (i + unit(random)) / steps, length = (next - t) * 1.5;
@@ -90,7 +95,9 @@ TEST_P(TableAccuracy, RaysOfManyThinSegmentsKeepTheWantedError) {
 TEST_P(TableAccuracy, SegmentsAlongOneScalar) {
     const PreintegrationTable standard = table(Integral::Standard, 1e-4), flat = table(Integral::ScaleInvariant, 1e-4);
     for (double scalar = 0.0; scalar <= 1.0; scalar += 1.0 / 1013.0) {
-        EXPECT_LE(differenceOf(lookUpSegment(standard, scalar, scalar, 0.05), exact_.segment(scalar, scalar, 0.05, Integral::Standard)), 2e-4)
+        EXPECT_LE(differenceOf(lookUpSegment(standard, scalar, scalar, 0.05),
+                               exact_.segment(scalar, scalar, 0.05, Integral::Standard)),
+                  2e-4)
             << scalar;
         EXPECT_EQ(lookUpSegment(flat, scalar, scalar, 0.05).opticalDepth, 0.0);
     }
@@ -99,7 +106,8 @@ TEST_P(TableAccuracy, SegmentsAlongOneScalar) {
 INSTANTIATE_TEST_SUITE_P(Functions, TableAccuracy,
                          testing::Values(Case{"constant", samples::constant(7.0)}, Case{"smooth", samples::smooth()},
                                          Case{"narrowTents", samples::narrowTents()}, Case{"jumps", samples::jumps()},
-                                         Case{"peaks", samples::peaks()}, Case{"smoothWithPeaks", samples::smoothWithPeaks()},
+                                         Case{"peaks", samples::peaks()},
+                                         Case{"smoothWithPeaks", samples::smoothWithPeaks()},
                                          Case{"viridis", resolved(preset("viridis"), 0.0, 1.0, 1.0)}),
                          [](const auto& suite) { return suite.param.name; });
 
@@ -114,9 +122,11 @@ TEST(PreintegrationTable, RecurrenceIsTheDirectIntegral) {
         const int rows = table.size * static_cast<int>(table.zones.size());
         for (int row = 0; row < rows; ++row) {
             for (int i = 0; i < table.size; ++i) {
-                const glm::vec4 texel = table.texels[static_cast<std::size_t>(row) * table.size + i], expected = direct.texel(i, row, 0);
+                const glm::vec4 texel = table.texels[static_cast<std::size_t>(row) * table.size + i],
+                                expected = direct.texel(i, row, 0);
                 for (int c = 0; c < 4; ++c) {
-                    EXPECT_NEAR(texel[c], expected[c], 2e-7f * std::max(1.0f, expected[c])) << "front " << i << " row " << row << " channel " << c;
+                    EXPECT_NEAR(texel[c], expected[c], 2e-7f * std::max(1.0f, expected[c]))
+                        << "front " << i << " row " << row << " channel " << c;
                 }
             }
         }
@@ -128,8 +138,10 @@ TEST(PreintegrationTable, PeaksAloneAreExact) {
     const PreintegrationTable table = buildScaleInvariantTable(exact, 0.0, 1.0, {});
     EXPECT_LE(table.measuredError, 1e-15);
     EXPECT_EQ(table.interfaces.size(), 2u);
-    EXPECT_LE(differenceOf(lookUpSegment(table, 0.3, 0.2, 1.0), exact.segment(0.3, 0.2, 1.0, Integral::ScaleInvariant)), 1e-15);
-    EXPECT_LE(differenceOf(lookUpSegment(table, 0.3, 0.7, 1.0), exact.segment(0.3, 0.7, 1.0, Integral::ScaleInvariant)), 1e-15);
+    EXPECT_LE(differenceOf(lookUpSegment(table, 0.3, 0.2, 1.0), exact.segment(0.3, 0.2, 1.0, Integral::ScaleInvariant)),
+              1e-15);
+    EXPECT_LE(differenceOf(lookUpSegment(table, 0.3, 0.7, 1.0), exact.segment(0.3, 0.7, 1.0, Integral::ScaleInvariant)),
+              1e-15);
 }
 
 TEST(PreintegrationTable, OpaqueIsosurfaceIsInfinitelyDeep) {
@@ -159,7 +171,8 @@ TEST(PreintegrationTable, InterfacesLieWithinTheRange) {
 TEST(PreintegrationTable, FieldOfOneValue) {
     const ExactIntegral exact(samples::smooth());
     const PreintegrationTable table = buildStandardTable(exact, 0.3, 0.3, 1.0, {});
-    EXPECT_LE(differenceOf(lookUpSegment(table, 0.3, 0.3, 0.7), exact.segment(0.3, 0.3, 0.7, Integral::Standard)), 1e-6);
+    EXPECT_LE(differenceOf(lookUpSegment(table, 0.3, 0.3, 0.7), exact.segment(0.3, 0.3, 0.7, Integral::Standard)),
+              1e-6);
 }
 
 // The same function in other units of scalar and length: the same picture.
@@ -167,12 +180,16 @@ TEST(PreintegrationTable, UnitsDoNotMatter) {
     TransferFunction scaled = samples::smooth();
     const double scalarUnit = 1e6, scalarOffset = -3e7, lengthUnit = 1e-5;
     for (ColorNode& node : scaled.color) node.scalar = scalarOffset + scalarUnit * node.scalar;
-    for (ExtinctionNode& node : scaled.extinction) node = {scalarOffset + scalarUnit * node.scalar, node.extinction / lengthUnit};
-    const PreintegrationTable table = buildStandardTable(ExactIntegral(scaled), scalarOffset, scalarOffset + scalarUnit, 0.1 * lengthUnit, {});
+    for (ExtinctionNode& node : scaled.extinction)
+        node = {scalarOffset + scalarUnit * node.scalar, node.extinction / lengthUnit};
+    const PreintegrationTable table =
+        buildStandardTable(ExactIntegral(scaled), scalarOffset, scalarOffset + scalarUnit, 0.1 * lengthUnit, {});
     EXPECT_LE(table.measuredError, 1e-4);
     const ExactIntegral exact(samples::smooth());
-    EXPECT_LE(differenceOf(lookUpSegment(table, scalarOffset + 0.3 * scalarUnit, scalarOffset + 0.6 * scalarUnit, 0.07 * lengthUnit),
-                           exact.segment(0.3, 0.6, 0.07, Integral::Standard)), 1e-4);
+    EXPECT_LE(differenceOf(lookUpSegment(table, scalarOffset + 0.3 * scalarUnit, scalarOffset + 0.6 * scalarUnit,
+                                         0.07 * lengthUnit),
+                           exact.segment(0.3, 0.6, 0.07, Integral::Standard)),
+              1e-4);
 }
 
 TEST(PreintegrationTable, SizesAreAsAskedFor) {

@@ -17,7 +17,11 @@ inline TransferFunction constant(double extinction) {
 /// Five nodes of colour and extinction, extinction up to 25.
 inline TransferFunction smooth() {
     TransferFunction function;
-    function.color = {{0.0, {0.0, 0.0, 1.0}}, {0.25, {0.0, 1.0, 1.0}}, {0.5, {0.2, 1.0, 0.1}}, {0.75, {1.0, 0.9, 0.0}}, {1.0, {1.0, 0.0, 0.3}}};
+    function.color = {{0.0, {0.0, 0.0, 1.0}},
+                      {0.25, {0.0, 1.0, 1.0}},
+                      {0.5, {0.2, 1.0, 0.1}},
+                      {0.75, {1.0, 0.9, 0.0}},
+                      {1.0, {1.0, 0.0, 0.3}}};
     function.extinction = {{0.0, 0.0}, {0.2, 1.0}, {0.45, 25.0}, {0.7, 4.0}, {1.0, 12.0}};
     return function;
 }
@@ -33,7 +37,8 @@ inline TransferFunction narrowTents() {
 /// Jumps of colour at 0.4, of extinction at 0.6, of both at 0.8.
 inline TransferFunction jumps() {
     TransferFunction function;
-    function.color = {{0.0, {0.1, 0.3, 0.9}}, {0.4, {0.2, 0.6, 0.3}}, {0.4, {0.9, 0.6, 0.3}}, {0.8, {0.5, 0.1, 0.2}}, {0.8, {1.0, 1.0, 1.0}}, {1.0, {0.0, 0.5, 0.0}}};
+    function.color = {{0.0, {0.1, 0.3, 0.9}}, {0.4, {0.2, 0.6, 0.3}}, {0.4, {0.9, 0.6, 0.3}},
+                      {0.8, {0.5, 0.1, 0.2}}, {0.8, {1.0, 1.0, 1.0}}, {1.0, {0.0, 0.5, 0.0}}};
     function.extinction = {{0.0, 1.0}, {0.6, 3.0}, {0.6, 20.0}, {0.8, 6.0}, {0.8, 0.0}, {1.0, 9.0}};
     return function;
 }

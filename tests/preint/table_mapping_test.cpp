@@ -70,7 +70,8 @@ TEST(TableMapping, LengthAndFractionAreInverse) {
         EXPECT_EQ(Linear().fractionOfLength(0.0, 1.7, scale), 0.0);
         EXPECT_NEAR(Linear().fractionOfLength(1.7, 1.7, scale), 1.0, 1e-15);
         for (double length = 1e-6; length < 1.7; length *= 1.3) {
-            EXPECT_NEAR(Linear().lengthOfFraction(Linear().fractionOfLength(length, 1.7, scale), 1.7, scale), length, 1e-13);
+            EXPECT_NEAR(Linear().lengthOfFraction(Linear().fractionOfLength(length, 1.7, scale), 1.7, scale), length,
+                        1e-13);
         }
     }
 }
@@ -125,7 +126,8 @@ TEST(TableMapping, WarpedScalarAndFractionAreInverse) {
         for (std::size_t zone = 0; zone < table.zones.size(); ++zone) {
             for (int i = 0; i < table.size; ++i) {
                 const double scalar = table.texelScalars[zone * table.size + i], fraction = i / (table.size - 1.0);
-                EXPECT_NEAR(warped.fractionOfScalar(static_cast<int>(zone), scalar), fraction, 1e-11) << "texel " << i << " of zone " << zone;
+                EXPECT_NEAR(warped.fractionOfScalar(static_cast<int>(zone), scalar), fraction, 1e-11)
+                    << "texel " << i << " of zone " << zone;
                 EXPECT_NEAR(warped.scalarOfFraction(static_cast<int>(zone), fraction), scalar, 1e-12);
             }
             EXPECT_NEAR(table.texelScalars[zone * table.size], table.zones[zone].x, 0);
@@ -138,7 +140,9 @@ TEST(TableMapping, KinksLieAtTexelCentres) {
     const PreintegrationTable table = tableOf(samples::narrowTents(), 64);
     EXPECT_TRUE(table.warped);
     for (const ExtinctionNode& node : samples::narrowTents().extinction) {
-        EXPECT_TRUE(std::find(table.texelScalars.begin(), table.texelScalars.end(), node.scalar) != table.texelScalars.end()) << node.scalar;
+        EXPECT_TRUE(std::find(table.texelScalars.begin(), table.texelScalars.end(), node.scalar) !=
+                    table.texelScalars.end())
+            << node.scalar;
     }
     EXPECT_FALSE(tableOf(samples::constant(3.0), 64).warped);
 }
@@ -154,12 +158,14 @@ TEST(TableMapping, RampsAreTheMeanExtinction) {
         Warped warped = warpedOf(table);
         for (int i = 0; i < 2000; ++i) {
             const double front = scalar(random), back = i % 2 == 0 ? scalar(random) : std::min(1.0, front + 1e-9);
-            const double mean = exact.smoothSegment(front, back, 1.0, Integral::ScaleInvariant).opticalDepth / std::abs(back - front);
+            const double mean =
+                exact.smoothSegment(front, back, 1.0, Integral::ScaleInvariant).opticalDepth / std::abs(back - front);
             EXPECT_NEAR(warped.meanExtinctionOf(front, back), mean, 1e-12 * mean + 1e-13) << front << " " << back;
             EXPECT_NEAR(warped.meanExtinctionOf(front, front), function.extinctionAt(front), 1e-12);
         }
         for (const ExtinctionNode& node : function.extinction) {  // at a jump the value from above
-            EXPECT_NEAR(warped.meanExtinctionOf(node.scalar, node.scalar), node.scalar < 1.0 ? function.extinctionAt(node.scalar) : node.extinction, 1e-12);
+            EXPECT_NEAR(warped.meanExtinctionOf(node.scalar, node.scalar),
+                        node.scalar < 1.0 ? function.extinctionAt(node.scalar) : node.extinction, 1e-12);
         }
         EXPECT_GE(warped.meanExtinctionOf(-1e-7, -1e-7), 0.0);
     }

@@ -43,7 +43,8 @@ TEST(TransferFunction, ReadsAllItsParts) {
 
 TEST(TransferFunction, IsosurfacesAloneBringTheirColors) {
     const TransferFunction function = parseTransferFunction(
-        R"({"isosurfaces": [{"value": 3, "opacity": 0.5, "color": [1, 0, 0]}, {"value": 1, "opacity": 1, "color": [0, 1, 0]}]})", "tf.json");
+        R"({"isosurfaces": [{"value": 3, "opacity": 0.5, "color": [1, 0, 0]}, {"value": 1, "opacity": 1, "color": [0, 1, 0]}]})",
+        "tf.json");
     EXPECT_EQ(function.colorAt(3.0), glm::dvec3(1, 0, 0));
     EXPECT_EQ(function.extinctionAt(3.0), 0.0);
 }
@@ -55,46 +56,64 @@ struct Wrong {
 
 class TransferFunctionErrors : public testing::TestWithParam<Wrong> {};
 
-TEST_P(TransferFunctionErrors, NamePlaceAndRemedy) { EXPECT_EQ(messageOf(GetParam().json), std::string("tf.json: ") + GetParam().message); }
+TEST_P(TransferFunctionErrors, NamePlaceAndRemedy) {
+    EXPECT_EQ(messageOf(GetParam().json), std::string("tf.json: ") + GetParam().message);
+}
 
 INSTANTIATE_TEST_SUITE_P(
     Table, TransferFunctionErrors,
     testing::Values(
-        Wrong{"[]", "is not a transfer function; write an object {\"color\": …, \"extinction\": …} or export a color map from ParaView"},
-        Wrong{"{}", "has neither \"extinction\" nor \"isosurfaces\", so nothing could be seen; add \"extinction\": [[s, tau], …]"},
+        Wrong{"[]",
+              "is not a transfer function; write an object {\"color\": …, \"extinction\": …} or export a color map "
+              "from ParaView"},
+        Wrong{"{}",
+              "has neither \"extinction\" nor \"isosurfaces\", so nothing could be seen; add \"extinction\": [[s, "
+              "tau], …]"},
         Wrong{R"({"extinction": [[0, 1]]})", "has no \"color\"; add \"color\": [[s, r, g, b], …]"},
-        Wrong{R"({"colour": []})", "has an unknown key \"colour\"; known are color, extinction, isosurfaces, normalized, extinctionPerExtent"},
+        Wrong{
+            R"({"colour": []})",
+            "has an unknown key \"colour\"; known are color, extinction, isosurfaces, normalized, extinctionPerExtent"},
         Wrong{R"({"color": []})", "color is empty, must have at least one node [s, r, g, b]"},
         Wrong{R"({"color": 3})", "color is 3, must be a list: [[s, r, g, b], …]"},
         Wrong{R"({"color": [[0, 1, 1]]})", "color[0] has 3 numbers, a color node has four: [s, r, g, b]"},
         Wrong{R"({"color": [[0, 1, "x", 1]]})", "color[0][2] is \"x\", must be a number"},
         Wrong{R"({"color": [[0, 1, 255, 1]]})",
               "color[0][2] is 255, but a color channel (divide channels of 0 to 255 by 255) must lie between 0 and 1"},
-        Wrong{R"({"color": [[1, 1, 1, 1], [0, 1, 1, 1]]})", "color[1] has scalar 0, below the 1 before it; sort the nodes by scalar"},
+        Wrong{R"({"color": [[1, 1, 1, 1], [0, 1, 1, 1]]})",
+              "color[1] has scalar 0, below the 1 before it; sort the nodes by scalar"},
         Wrong{R"({"color": [[1, 1, 1, 1], [1, 0, 1, 1], [1, 0, 0, 1]]})",
               "color[2] is the third node at scalar 1; two make a jump, leave one out"},
         Wrong{R"({"extinction": []})", "extinction is empty, must have at least one node [s, tau]"},
         Wrong{R"({"extinction": [[0, -1]]})", "extinction[0][1] is -1, but extinction must not be negative"},
         Wrong{R"({"extinction": [[0, 1], [2, null]]})", "extinction[1][1] is null, must be a number"},
-        Wrong{R"({"extinction": [[2, 1], [1, 1]]})", "extinction[1] has scalar 1, below the 2 before it; sort the nodes by scalar"},
+        Wrong{R"({"extinction": [[2, 1], [1, 1]]})",
+              "extinction[1] has scalar 1, below the 2 before it; sort the nodes by scalar"},
         Wrong{R"({"isosurfaces": [{"value": 1, "opacity": 1.5, "color": [0, 0, 0]}]})",
               "isosurfaces[0].opacity is 1.5, but an opacity must lie between 0 and 1"},
         Wrong{R"({"isosurfaces": [{"value": 1, "color": [0, 0, 0]}]})", "isosurfaces[0] has no \"opacity\"; add it"},
         Wrong{R"({"isosurfaces": [{"value": 1, "opacity": 1, "color": [0, 0]}]})",
               "isosurfaces[0].color has 2 numbers, a color has three: [r, g, b]"},
-        Wrong{R"({"isosurfaces": [{"value": 1, "alpha": 1}]})", "isosurfaces[0] has an unknown key \"alpha\"; known are value, opacity, color"},
-        Wrong{R"({"isosurfaces": [7]})", "isosurfaces[0] must be an object: {\"value\": v, \"opacity\": a, \"color\": [r, g, b]}"},
+        Wrong{R"({"isosurfaces": [{"value": 1, "alpha": 1}]})",
+              "isosurfaces[0] has an unknown key \"alpha\"; known are value, opacity, color"},
+        Wrong{R"({"isosurfaces": [7]})",
+              "isosurfaces[0] must be an object: {\"value\": v, \"opacity\": a, \"color\": [r, g, b]}"},
         Wrong{R"({"normalized": 1})", "normalized is 1, must be true or false"},
         Wrong{R"([{"RGBPoints": [0, 0, 0, 0]}, {"RGBPoints": [0, 0, 0, 0]}])", "holds 2 color maps; export one alone"},
-        Wrong{R"([{"IndexedColors": [0, 0, 0]}])", "is a ParaView color map without RGBPoints (a categorical one?); export one with RGBPoints"},
+        Wrong{R"([{"IndexedColors": [0, 0, 0]}])",
+              "is a ParaView color map without RGBPoints (a categorical one?); export one with RGBPoints"},
         Wrong{R"([{"RGBPoints": [0, 0, 0]}])", "RGBPoints has 3 numbers, must have four for each point: s, r, g, b"},
-        Wrong{R"([{"RGBPoints": [1, 0, 0, 0, 0, 0, 0, 0]}])", "RGBPoints[4] is 0, below the 1 before it; sort the points by scalar"},
-        Wrong{R"([{"RGBPoints": [1, 0, 0, 0], "Points": [0, 1.2, 0.5, 0]}])", "Points[1] is 1.2, but an opacity must lie between 0 and 1"},
+        Wrong{R"([{"RGBPoints": [1, 0, 0, 0, 0, 0, 0, 0]}])",
+              "RGBPoints[4] is 0, below the 1 before it; sort the points by scalar"},
+        Wrong{R"([{"RGBPoints": [1, 0, 0, 0], "Points": [0, 1.2, 0.5, 0]}])",
+              "Points[1] is 1.2, but an opacity must lie between 0 and 1"},
         Wrong{R"([{"RGBPoints": [1, 0, 0, 0], "ColorSpace": "Lab/CIEDE2000"}])",
-              "ColorSpace \"Lab/CIEDE2000\" is not a color space that is read here; choose CIELAB, Diverging, HSV, Lab, RGB or Step"}));
+              "ColorSpace \"Lab/CIEDE2000\" is not a color space that is read here; choose CIELAB, Diverging, HSV, "
+              "Lab, RGB or Step"}));
 
 TEST(TransferFunction, InvalidJsonIsReportedWithLineAndColumn) {
-    EXPECT_NE(messageOf("{\"color\": [[0, 1,\n 1, 1]").find("tf.json: is not valid JSON: parse error at line 2, column "), std::string::npos)
+    EXPECT_NE(
+        messageOf("{\"color\": [[0, 1,\n 1, 1]").find("tf.json: is not valid JSON: parse error at line 2, column "),
+        std::string::npos)
         << messageOf("{\"color\": [[0, 1,\n 1, 1]");
     EXPECT_NE(messageOf("{\"color\": [[0, NaN, 1, 1]]}").find("is not valid JSON"), std::string::npos);
     EXPECT_NE(messageOf("{\"color\": [[0, 1e999, 1, 1]]}").find("1e999"), std::string::npos);
@@ -146,7 +165,8 @@ TEST(TransferFunction, MutatedCorpusIsReadOrRefusedInOneLine) {
         corpus.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
     }
     std::sort(corpus.begin(), corpus.end());
-    const std::string tokens[] = {"[", "]", "{", "}", ",", "-", "1e308", "-1e308", "0", "1", "1e-320", "null", "\"\"", "true", "\xff", "[[", "2e2"};
+    const std::string tokens[] = {"[", "]",      "{",    "}",    ",",    "-",    "1e308", "-1e308", "0",
+                                  "1", "1e-320", "null", "\"\"", "true", "\xff", "[[",    "2e2"};
     std::mt19937_64 random(2005);
     auto below = [&](std::size_t bound) { return static_cast<std::size_t>(random() % bound); };
     int read = 0;
@@ -155,10 +175,18 @@ TEST(TransferFunction, MutatedCorpusIsReadOrRefusedInOneLine) {
         for (std::size_t change = 1 + below(3); change > 0 && !text.empty(); --change) {
             const std::size_t at = below(text.size());
             switch (below(4)) {
-                case 0: text[at] = static_cast<char>(below(256)); break;
-                case 1: text.erase(at, 1 + below(8)); break;
-                case 2: text.insert(at, tokens[below(std::size(tokens))]); break;
-                case 3: text.replace(at, 1, tokens[below(std::size(tokens))]); break;
+                case 0:
+                    text[at] = static_cast<char>(below(256));
+                    break;
+                case 1:
+                    text.erase(at, 1 + below(8));
+                    break;
+                case 2:
+                    text.insert(at, tokens[below(std::size(tokens))]);
+                    break;
+                case 3:
+                    text.replace(at, 1, tokens[below(std::size(tokens))]);
+                    break;
             }
         }
         ASSERT_NO_THROW(read += parseAnyText(text)) << text;

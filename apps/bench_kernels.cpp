@@ -95,6 +95,8 @@ void radixSort(benchmark::State& state) {
 }
 BENCHMARK(radixSort)->Arg(150'000)->Arg(5'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
 
+constexpr double longest = 0.05;  // mesh units, as in cells of `bucky:32`
+
 struct Segment {
     double front, back, length;
 };
@@ -102,7 +104,7 @@ struct Segment {
 /// As cells of `bucky:32` give them: short, anywhere in the range.
 std::vector<Segment> someSegments() {
     std::mt19937 random(2);
-    std::uniform_real_distribution<double> scalar(0.0, 1.0), change(-0.1, 0.1), length(0.0, 0.05);
+    std::uniform_real_distribution<double> scalar(0.0, 1.0), change(-0.1, 0.1), length(0.0, longest);
     std::vector<Segment> segments(4096);
     for (Segment& segment : segments) {
         segment.front = scalar(random);
@@ -112,12 +114,20 @@ std::vector<Segment> someSegments() {
     return segments;
 }
 
-preint::ExactIntegral exactOf(const char* function, projection::Mode mode) {
-    return preint::ExactIntegral(benchTransferFunction(function, *buckyOf(32), mode));
+preint::ExactIntegral exactOf(projection::Mode mode) {
+    return preint::ExactIntegral(benchTransferFunction("smooth", *buckyOf(32), mode));
+}
+
+preint::PreintegrationTable standardTableOf(const preint::ExactIntegral& exact, int size) {
+    return preint::buildStandardTable(exact, buckyOf(32)->scalarMin, buckyOf(32)->scalarMax, longest, {.size = size});
+}
+
+preint::PreintegrationTable scaleInvariantTableOf(const preint::ExactIntegral& exact, int size) {
+    return preint::buildScaleInvariantTable(exact, buckyOf(32)->scalarMin, buckyOf(32)->scalarMax, {.size = size});
 }
 
 void exactIntegral(benchmark::State& state, preint::Integral integral) {
-    const preint::ExactIntegral exact = exactOf("smooth", projection::Mode::Standard);
+    const preint::ExactIntegral exact = exactOf(projection::Mode::Standard);
     const std::vector<Segment> segments = someSegments();
     for (auto _ : state)
         for (const Segment& s : segments) benchmark::DoNotOptimize(exact.segment(s.front, s.back, s.length, integral));
@@ -128,8 +138,8 @@ BENCHMARK_CAPTURE(exactIntegral, scaleInvariant, preint::Integral::ScaleInvarian
 
 /// The double-precision look-up that the judge of tables uses.
 void tableLookUp(benchmark::State& state) {
-    const preint::ExactIntegral exact = exactOf("smooth", projection::Mode::Standard);
-    const preint::PreintegrationTable table = preint::buildStandardTable(exact, 0.0, 1.0, 0.05, {});
+    const preint::ExactIntegral exact = exactOf(projection::Mode::Standard);
+    const preint::PreintegrationTable table = standardTableOf(exact, 0);
     const std::vector<Segment> segments = someSegments();
     for (auto _ : state)
         for (const Segment& s : segments)
@@ -144,19 +154,17 @@ void countTexels(benchmark::State& state, std::size_t texels, double error) {
 }
 
 void scaleInvariantTable(benchmark::State& state) {
-    const preint::ExactIntegral exact = exactOf("smooth", projection::Mode::ScaleInvariant);
+    const preint::ExactIntegral exact = exactOf(projection::Mode::ScaleInvariant);
     preint::PreintegrationTable table;
-    for (auto _ : state)
-        table = preint::buildScaleInvariantTable(exact, 0.0, 1.0, {.size = static_cast<int>(state.range(0))});
+    for (auto _ : state) table = scaleInvariantTableOf(exact, static_cast<int>(state.range(0)));
     countTexels(state, table.texels.size(), table.measuredError);
 }
 BENCHMARK(scaleInvariantTable)->Arg(64)->Arg(256)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void standardTable(benchmark::State& state) {
-    const preint::ExactIntegral exact = exactOf("smooth", projection::Mode::Standard);
+    const preint::ExactIntegral exact = exactOf(projection::Mode::Standard);
     preint::PreintegrationTable table;
-    for (auto _ : state)
-        table = preint::buildStandardTable(exact, 0.0, 1.0, 0.05, {.size = static_cast<int>(state.range(0))});
+    for (auto _ : state) table = standardTableOf(exact, static_cast<int>(state.range(0)));
     countTexels(state, table.texels.size(), table.measuredError);
 }
 BENCHMARK(standardTable)->Arg(64)->Arg(256)->Unit(benchmark::kMillisecond)->UseRealTime();

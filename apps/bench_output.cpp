@@ -72,6 +72,25 @@ std::string tableLine(const BenchRow& row) {
                        shortTime(row.prepareTotalMilliseconds), stagesText(row));
 }
 
+bool isVtk(const BenchRow& row) {
+    return row.engine.starts_with("vtk:");
+}
+
+/// "cpu is 12.3 times as fast as vtk:projected, at 0.0001 times its rmse"; empty unless both sides have figures.
+std::string comparisonLine(const std::vector<BenchRow>& rows, const BenchSubject& subject) {
+    const BenchRow* ours = nullptr;
+    const BenchRow* theirs = nullptr;
+    for (const BenchRow& row : rows) {
+        if (row.subject != subject || !row.failure.empty() || !row.judged || row.engine == "reference") continue;
+        const BenchRow*& fastest = isVtk(row) ? theirs : ours;
+        if (fastest == nullptr || row.medianMilliseconds() < fastest->medianMilliseconds()) fastest = &row;
+    }
+    if (ours == nullptr || theirs == nullptr) return "";
+    return fmt::format("  {} is {:.1f} times as fast as {}, at {:.2g} times its rmse\n", nameAndSetting(*ours),
+                       theirs->medianMilliseconds() / ours->medianMilliseconds(), theirs->engine,
+                       ours->error.rmse / theirs->error.rmse);
+}
+
 struct Column {
     const char* name;
     std::function<std::string(const BenchRow&)> text;
@@ -182,6 +201,7 @@ std::string benchTable(const std::vector<BenchRow>& rows) {
                         "least", "rmse", "max", "p99.9", "tets/s", "frags/s", "B/tet", "MiB", "prepare", "ms by stage");
         for (const BenchRow& row : rows)
             if (row.subject == subject) text += tableLine(row);
+        text += comparisonLine(rows, subject);
     }
     return text;
 }

@@ -184,6 +184,13 @@ TEST(BenchTable, NamesEveryRow) {
     EXPECT_NE(table.find("not measured: no EGL"), std::string::npos);
 }
 
+TEST(BenchTable, SetsOurFastestAgainstTheirs) {
+    const std::vector<BenchRow> rows{row("cpu", {2}, 1e-6), row("gl:egl", {9}, 1e-6), row("vtk:projected", {25}, 1e-3),
+                                     row("vtk:zsweep", {99}, 1e-3)};
+    EXPECT_NE(benchTable(rows).find("cpu is 12.5 times as fast as vtk:projected, at 0.001 times its rmse"),
+              std::string::npos);
+}
+
 TEST(WrongPictures, AreFoundByErrorNotByTime) {
     std::vector<BenchRow> rows{row("cpu", {1e9}, 0.99e-4), row("vtk:projected", {1}, 0.1)};
     EXPECT_TRUE(wrongPictures(rows).empty());

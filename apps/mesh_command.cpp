@@ -19,7 +19,8 @@ namespace {
 
 constexpr const char* helper = "tetralux-mesher";
 
-/// Replaces this process by the helper, so that signals, output and exit status are the helper's. Returns only by an exception.
+/// Replaces this process by the helper, so that signals, output and exit status are the helper's. Returns only by an
+/// exception.
 int becomeMesher(const std::vector<std::string>& arguments) {
     std::vector<std::string> words{helper};
     words.insert(words.end(), arguments.begin(), arguments.end());
@@ -30,10 +31,13 @@ int becomeMesher(const std::vector<std::string>& arguments) {
     for (const std::string& place : mesherPlaces()) {
         execv(place.c_str(), pointers.data());
         if (errno != ENOENT && errno != ENOTDIR)
-            throw std::runtime_error(fmt::format("{} cannot be started ({}): install it anew", place, std::strerror(errno)));
+            throw std::runtime_error(
+                fmt::format("{} cannot be started ({}): install it anew", place, std::strerror(errno)));
     }
-    throw std::runtime_error(fmt::format("the helper program {0} is missing: put it beside tetralux or into a folder of PATH "
-                                         "(it is built with TETRALUX_MESHER=ON)", helper));
+    throw std::runtime_error(
+        fmt::format("the helper program {0} is missing: put it beside tetralux or into a folder of PATH "
+                    "(it is built with TETRALUX_MESHER=ON)",
+                    helper));
 }
 
 }  // namespace
@@ -47,14 +51,16 @@ std::vector<std::string> mesherPlaces() {
     std::string folders = path == nullptr ? "" : path;
     for (std::size_t start = 0; start <= folders.size();) {
         const std::size_t end = std::min(folders.find(':', start), folders.size());
-        if (end > start) places.push_back((std::filesystem::path(folders.substr(start, end - start)) / helper).string());
+        if (end > start)
+            places.push_back((std::filesystem::path(folders.substr(start, end - start)) / helper).string());
         start = end + 1;
     }
     return places;
 }
 
 void addMeshCommand(CLI::App& program, Command& chosen) {
-    CLI::App* command = program.add_subcommand("mesh", "Turn points, surfaces or other cells into tetrahedra; 'tetralux mesh --help' says more");
+    CLI::App* command = program.add_subcommand(
+        "mesh", "Turn points, surfaces or other cells into tetrahedra; 'tetralux mesh --help' says more");
     command->set_help_flag();   // the helper knows its own options
     command->prefix_command();  // all that follows is for it
     command->callback([command, &chosen] { chosen = [command] { return becomeMesher(command->remaining()); }; });

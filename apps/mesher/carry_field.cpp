@@ -33,10 +33,13 @@ void assembleLaplace(const mesh::TetMesh& mesh, const Unknowns& unknowns, Eigen:
         std::array<glm::dvec3, 4> normal;
         for (std::size_t k = 0; k < 4; ++k) {
             const auto& face = mesh::faceVertices[k];
-            const auto at = [&](int j) { return mesh.positions[cell[static_cast<std::size_t>(face[static_cast<std::size_t>(j)])]]; };
+            const auto at = [&](int j) {
+                return mesh.positions[cell[static_cast<std::size_t>(face[static_cast<std::size_t>(j)])]];
+            };
             normal[k] = -glm::cross(at(1) - at(0), at(2) - at(0));
         }
-        const double six = mesh::sixVolumes(mesh.positions[cell[0]], mesh.positions[cell[1]], mesh.positions[cell[2]], mesh.positions[cell[3]]);
+        const double six = mesh::sixVolumes(mesh.positions[cell[0]], mesh.positions[cell[1]], mesh.positions[cell[2]],
+                                            mesh.positions[cell[3]]);
         for (std::size_t i = 0; i < 4; ++i) {
             const int row = unknowns.number[cell[i]];
             if (row == isKnown) continue;
@@ -60,11 +63,14 @@ void assembleLaplace(const mesh::TetMesh& mesh, const Unknowns& unknowns, Eigen:
 void solveLaplace(const mesh::TetMesh& mesh, const Unknowns& unknowns, std::vector<mesh::Field>& fields) {
     Eigen::SparseMatrix<double> inner, outer;
     assembleLaplace(mesh, unknowns, inner, outer);
-    Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper, Eigen::IncompleteCholesky<double>> solver;
+    Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper,
+                             Eigen::IncompleteCholesky<double>>
+        solver;
     solver.setTolerance(1e-12);
     solver.setMaxIterations(10000);
     solver.compute(inner);
-    if (solver.info() != Eigen::Success) throw std::runtime_error("the field cannot be carried inward: Laplace's equation has no solution here");
+    if (solver.info() != Eigen::Success)
+        throw std::runtime_error("the field cannot be carried inward: Laplace's equation has no solution here");
     const auto points = static_cast<Eigen::Index>(mesh.positions.size());
     for (mesh::Field& field : fields)
         for (int k = 0; k < field.components; ++k) {
@@ -76,7 +82,8 @@ void solveLaplace(const mesh::TetMesh& mesh, const Unknowns& unknowns, std::vect
                 low = std::min(low, known[i]);
                 high = std::max(high, known[i]);
             }
-            const double middle = 0.5 * low + 0.5 * high;  // the solver's tolerance is relative: keep offsets away from it
+            const double middle =
+                0.5 * low + 0.5 * high;  // the solver's tolerance is relative: keep offsets away from it
             const bool finite = std::isfinite(high - low);
             known.array() -= finite ? middle : 0.0;
             const Eigen::VectorXd solution = solver.solve(-(outer * known));
@@ -84,9 +91,11 @@ void solveLaplace(const mesh::TetMesh& mesh, const Unknowns& unknowns, std::vect
                 const int row = unknowns.number[static_cast<std::size_t>(i)];
                 if (row == isKnown) continue;
                 const double value = solution[row] + middle;
-                // Obtuse cells can push a value out of the range by a little; a NaN on the surface spreads: it stays NaN
+                // Obtuse cells can push a value out of the range by a little; a NaN on the surface spreads: it stays
+                // NaN
                 field.values[static_cast<std::size_t>(i * field.components + k)] =
-                    finite && std::isfinite(value) ? std::clamp(value, low, high) : std::numeric_limits<double>::quiet_NaN();
+                    finite && std::isfinite(value) ? std::clamp(value, low, high)
+                                                   : std::numeric_limits<double>::quiet_NaN();
             }
         }
 }
@@ -95,7 +104,9 @@ double blend(const mesh::Field& field, const Triangle& t, const std::array<doubl
     double value = 0.0;
     for (std::size_t c = 0; c < 3; ++c)
         if (weights[c] != 0.0)  // so that a NaN far corner does not spoil a point that sits on another one
-            value += weights[c] * field.values[t[c] * static_cast<std::size_t>(field.components) + static_cast<std::size_t>(component)];
+            value +=
+                weights[c] *
+                field.values[t[c] * static_cast<std::size_t>(field.components) + static_cast<std::size_t>(component)];
     return value;
 }
 
@@ -109,8 +120,9 @@ std::vector<mesh::Field> carryFields(const TriangleSurface& given, const mesh::T
     for (const Triangle& t : boundaryOf(mesh).triangles)
         for (const std::uint32_t i : t) onBoundary[i] = true;
     for (const mesh::Field& field : given.fields)
-        fields.push_back({field.name, field.association, field.components,
-                          std::vector<double>(mesh.positions.size() * static_cast<std::size_t>(field.components), 0.0)});
+        fields.push_back(
+            {field.name, field.association, field.components,
+             std::vector<double>(mesh.positions.size() * static_cast<std::size_t>(field.components), 0.0)});
     std::optional<SurfaceLocator> locator;
     Unknowns unknowns{std::vector<int>(mesh.positions.size(), isKnown), 0};
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -128,7 +140,8 @@ std::vector<mesh::Field> carryFields(const TriangleSurface& given, const mesh::T
             const auto n = static_cast<std::size_t>(fields[f].components);
             for (std::size_t k = 0; k < n; ++k)
                 fields[f].values[i * n + k] = isGiven ? given.fields[f].values[source[i] * n + k]
-                                                      : blend(given.fields[f], given.triangles[nearest.triangle], nearest.weights, static_cast<int>(k));
+                                                      : blend(given.fields[f], given.triangles[nearest.triangle],
+                                                              nearest.weights, static_cast<int>(k));
         }
     }
     if (unknowns.count > 0) solveLaplace(mesh, unknowns, fields);

@@ -15,8 +15,8 @@ namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
 
-/// Whether triangles that share one point of the input meet anywhere else. (CGAL knows the point as two where the surface pinches, so that
-/// it reports the pair.)
+/// Whether triangles that share one point of the input meet anywhere else. (CGAL knows the point as two where the
+/// surface pinches, so that it reports the pair.)
 bool meetBeyondSharedPoint(const Soup& soup, const std::array<std::size_t, 3>& a, const std::array<std::size_t, 3>& b) {
     const auto oppositeSideMeets = [&](const auto& from, const auto& other) {
         std::vector<std::size_t> rest;
@@ -36,7 +36,8 @@ void checkSelfIntersections(const Soup& soup, const SurfaceMesh& mesh, SurfaceFi
     std::vector<std::pair<std::size_t, std::size_t>> real;
     for (const auto& [f, g] : pairs) {
         const auto &a = soup.triangles[f.idx()], &b = soup.triangles[g.idx()];
-        const bool sharePoint = std::any_of(a.begin(), a.end(), [&](auto i) { return std::find(b.begin(), b.end(), i) != b.end(); });
+        const bool sharePoint =
+            std::any_of(a.begin(), a.end(), [&](auto i) { return std::find(b.begin(), b.end(), i) != b.end(); });
         const bool neighbours = sharePoint && !meetBeyondSharedPoint(soup, a, b);
         if (!neighbours || f == g) real.emplace_back(std::minmax<std::size_t>(f.idx(), g.idx()));
     }
@@ -53,7 +54,8 @@ void checkSelfIntersections(const Soup& soup, const SurfaceMesh& mesh, SurfaceFi
 
 /// A closed mesh without self-intersections: outer shells must face outward, cavities inward.
 void checkSides(TriangleSurface& surface, SurfaceMesh& mesh, SurfaceFindings& findings, bool& turned) {
-    if (PMP::does_bound_a_volume(mesh)) {  // also true where all faces inward: "the volume" is then all the rest of space
+    if (PMP::does_bound_a_volume(
+            mesh)) {  // also true where all faces inward: "the volume" is then all the rest of space
         turned = enclosedVolume(surface) < 0.0;
         if (turned)
             for (Triangle& t : surface.triangles) std::swap(t[1], t[2]);
@@ -73,7 +75,8 @@ void checkSides(TriangleSurface& surface, SurfaceMesh& mesh, SurfaceFindings& fi
         const bool same = matching != SurfaceMesh::null_halfedge() && right.face(matching) == f;
         if (same) continue;
         const auto& p = right.point(right.target(right.halfedge(f)));
-        const std::string where = fmt::format("at triangle {} near ({:.6g}, {:.6g}, {:.6g})", f.idx(), p.x(), p.y(), p.z());
+        const std::string where =
+            fmt::format("at triangle {} near ({:.6g}, {:.6g}, {:.6g})", f.idx(), p.x(), p.y(), p.z());
         if (!findings.empty() && findings.back().defect == SurfaceDefect::WrongSide)
             ++findings.back().count;
         else

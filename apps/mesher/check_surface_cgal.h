@@ -10,8 +10,9 @@
 
 namespace tetralux::mesher {
 
-/// Everything that keeps the surface from enclosing a volume; nothing if it does so and every shell faces the right side. Self-intersections
-/// are found with exact predicates. A surface that is right but for facing inward as a whole is turned, and `turned` says so.
+/// Everything that keeps the surface from enclosing a volume; nothing if it does so and every shell faces the right
+/// side. Self-intersections are found with exact predicates. A surface that is right but for facing inward as a whole
+/// is turned, and `turned` says so.
 SurfaceFindings checkSurface(TriangleSurface& surface, bool& turned);
 
 /// Mends what can be: drops broken and double triangles, merges points, orients, stitches borders, fills holes, removes

@@ -23,7 +23,9 @@ constexpr std::size_t keptOutput = 4096;  // bytes of the child's prints
 constexpr int tickMilliseconds = 200;
 
 volatile sig_atomic_t caughtSignal = 0;
-void onSignal(int number) { caughtSignal = number; }
+void onSignal(int number) {
+    caughtSignal = number;
+}
 
 /// Catches the signals that end programs for as long as it lives.
 class SignalGuard {
@@ -95,9 +97,11 @@ std::string oneLine(std::string text) {
     try {
         work(pipe);
     } catch (const std::bad_alloc&) {
-        pipe.send(MessageKind::Error, "more memory is needed than there is: is the file whole? Else take a coarser input");
+        pipe.send(MessageKind::Error,
+                  "more memory is needed than there is: is the file whole? Else take a coarser input");
     } catch (const std::length_error&) {
-        pipe.send(MessageKind::Error, "more memory is needed than there is: is the file whole? Else take a coarser input");
+        pipe.send(MessageKind::Error,
+                  "more memory is needed than there is: is the file whole? Else take a coarser input");
     } catch (const std::exception& error) {
         pipe.send(MessageKind::Error, oneLine(error.what()));
     }

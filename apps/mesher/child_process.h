@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Work done in a child process of its own, so that a library's crash, assert, exit or endless loop is an outcome among others.
+/// Work done in a child process of its own, so that a library's crash, assert, exit or endless loop is an outcome among
+/// others.
 #pragma once
 
 #include <chrono>
@@ -31,9 +32,10 @@ private:
 };
 
 struct ChildLimits {
-    Deadline deadline;               ///< the child is killed then; none: no limit
-    std::uint64_t memoryBytes = 0;   ///< address space (RLIMIT_AS); 0: no limit
-    bool ownProcessGroup = false;    ///< so that killing the child kills its children, and Ctrl-C reaches the parent alone
+    Deadline deadline;              ///< the child is killed then; none: no limit
+    std::uint64_t memoryBytes = 0;  ///< address space (RLIMIT_AS); 0: no limit
+    bool ownProcessGroup =
+        false;  ///< so that killing the child kills its children, and Ctrl-C reaches the parent alone
 };
 
 /// How a child ended.
@@ -53,9 +55,9 @@ struct ChildOutcome {
     std::string output;  ///< the last 4 KiB of what it printed
 };
 
-/// Forks and runs `work` in the child, its standard output and error caught. `onMessage` gets each Stage and Note message, and an
-/// empty Stage about five times a second (to show that time goes by). While the child runs, SIGINT, SIGTERM and SIGHUP are
-/// caught here and end the child. If this process dies, the child is killed (PR_SET_PDEATHSIG).
+/// Forks and runs `work` in the child, its standard output and error caught. `onMessage` gets each Stage and Note
+/// message, and an empty Stage about five times a second (to show that time goes by). While the child runs, SIGINT,
+/// SIGTERM and SIGHUP are caught here and end the child. If this process dies, the child is killed (PR_SET_PDEATHSIG).
 /// \throws std::runtime_error when no process or pipe can be made.
 ChildOutcome runInChild(const ChildLimits& limits, const std::function<void(const MessagePipe&)>& work,
                         const std::function<void(MessageKind, std::string_view)>& onMessage = {});

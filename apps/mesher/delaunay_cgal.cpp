@@ -16,7 +16,8 @@ RawTetrahedra delaunayByCgal(const std::vector<glm::dvec3>& points) {
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
     using Vertex = CGAL::Triangulation_vertex_base_with_info_3<std::uint32_t, Kernel>;
     // Sequential: with CGAL's Parallel_tag a million points took longer on two cores than without.
-    using Delaunay = CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>>;
+    using Delaunay = CGAL::Delaunay_triangulation_3<
+        Kernel, CGAL::Triangulation_data_structure_3<Vertex, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>>;
     std::vector<std::pair<Kernel::Point_3, std::uint32_t>> numbered;
     numbered.reserve(points.size());
     for (std::uint32_t i = 0; i < points.size(); ++i)
@@ -27,7 +28,8 @@ RawTetrahedra delaunayByCgal(const std::vector<glm::dvec3>& points) {
     result.points = points;
     result.cells.reserve(delaunay.number_of_finite_cells());
     for (const auto& cell : delaunay.finite_cell_handles())
-        result.cells.push_back({cell->vertex(0)->info(), cell->vertex(1)->info(), cell->vertex(2)->info(), cell->vertex(3)->info()});
+        result.cells.push_back(
+            {cell->vertex(0)->info(), cell->vertex(1)->info(), cell->vertex(2)->info(), cell->vertex(3)->info()});
     return result;
 }
 

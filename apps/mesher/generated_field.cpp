@@ -80,10 +80,12 @@ std::vector<double> evaluate(const mesh::TetMesh& mesh, const std::string& formu
     };
     std::vector<Variable> variables;
     for (const mesh::Field& field : mesh.fields)
-        if (field.association == mesh::Association::Point && field.components == 1 && isName(field.name) && mentions(formula, field.name))
+        if (field.association == mesh::Association::Point && field.components == 1 && isName(field.name) &&
+            mentions(formula, field.name))
             variables.push_back({field.name, field.values});
     for (const std::string& name : builtInNames) {
-        const bool taken = std::any_of(variables.begin(), variables.end(), [&](const auto& v) { return v.name == name; });
+        const bool taken =
+            std::any_of(variables.begin(), variables.end(), [&](const auto& v) { return v.name == name; });
         if (!taken && mentions(formula, name)) variables.push_back({name, builtIn(mesh, name)});
     }
     std::string problem;
@@ -96,12 +98,14 @@ std::vector<double> evaluate(const mesh::TetMesh& mesh, const std::string& formu
     for (const Variable& v : variables) parser->SetScalarVariableValue(v.name, 0.0);
     std::vector<double> values(mesh.positions.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
-        for (std::size_t v = 0; v < variables.size(); ++v) parser->SetScalarVariableValue(static_cast<int>(v), variables[v].values[i]);
+        for (std::size_t v = 0; v < variables.size(); ++v)
+            parser->SetScalarVariableValue(static_cast<int>(v), variables[v].values[i]);
         if (i == 0 && parser->IsScalarResult() == 0 && problem.empty()) problem = "it does not give a number";
         if (problem.empty()) values[i] = parser->GetScalarResult();
         if (!problem.empty())
-            throw std::runtime_error(fmt::format("--field '{}' is not understood ({}): take x, y, z, radius, distance, or a formula of them",
-                                                 formula, shortened(problem)));
+            throw std::runtime_error(
+                fmt::format("--field '{}' is not understood ({}): take x, y, z, radius, distance, or a formula of them",
+                            formula, shortened(problem)));
     }
     return values;
 }
@@ -111,7 +115,8 @@ std::vector<double> evaluate(const mesh::TetMesh& mesh, const std::string& formu
 void addGeneratedField(mesh::TetMesh& mesh, const std::string& specification) {
     std::string name = "formula", formula = specification;
     const std::size_t equals = specification.find('=');
-    if (equals != std::string::npos && isName(specification.substr(0, equals)) && specification.substr(equals + 1, 1) != "=") {
+    if (equals != std::string::npos && isName(specification.substr(0, equals)) &&
+        specification.substr(equals + 1, 1) != "=") {
         name = specification.substr(0, equals);
         formula = specification.substr(equals + 1);
     }

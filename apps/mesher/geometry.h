@@ -16,7 +16,8 @@ namespace tetralux::mesher {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Points with values, and the polygons over them as the file had them: nothing is checked but that every index is in range.
+/// Points with values, and the polygons over them as the file had them: nothing is checked but that every index is in
+/// range.
 struct PolygonSoup {
     std::vector<glm::dvec3> points;
     std::vector<std::vector<std::uint32_t>> polygons;  ///< empty: a point cloud

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// tetralux-mesher: watches over the child process that does the work, so that whatever becomes of it is one sentence, and no file
-/// but a whole one is left behind. `tetralux mesh` starts it.
+/// tetralux-mesher: watches over the child process that does the work, so that whatever becomes of it is one sentence,
+/// and no file but a whole one is left behind. `tetralux mesh` starts it.
 #include <fmt/format.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -29,7 +29,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int badInput = 2;
 
-double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
+double seconds(Clock::duration d) {
+    return std::chrono::duration<double>(d).count();
+}
 
 /// A folder beside the output for what is not whole yet; gone when this is.
 class Workshop {
@@ -38,7 +40,8 @@ public:
         const fs::path folder = fs::absolute(output).parent_path();
         path_ = (folder / ".tetralux-mesh-XXXXXX").string();
         if (mkdtemp(path_.data()) == nullptr)
-            throw std::runtime_error(fmt::format("{}: cannot be written: make the folder {} and see that you may write there", output, folder.string()));
+            throw std::runtime_error(fmt::format(
+                "{}: cannot be written: make the folder {} and see that you may write there", output, folder.string()));
     }
     ~Workshop() {
         std::error_code ignored;
@@ -79,26 +82,34 @@ private:
     Clock::time_point since_ = Clock::now();
 };
 
-/// Nine tenths of the machine's memory: a broken file's demands must not push all else out. (Sanitizers reserve far more.)
+/// Nine tenths of the machine's memory: a broken file's demands must not push all else out. (Sanitizers reserve far
+/// more.)
 std::uint64_t memoryLimit() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     return 0;
 #else
-    return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) / 10 * 9 * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+    return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) / 10 * 9 *
+           static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
 #endif
 }
 
 std::string problemOf(const ChildOutcome& outcome, const Options& options, const std::string& stage) {
     using End = ChildOutcome::End;
     switch (outcome.end) {
-        case End::Error: return outcome.error;
+        case End::Error:
+            return outcome.error;
         case End::TimedOut:
-            return fmt::format("{}: {} took longer than the time limit of {} s: take coarser bounds or a longer --time-limit", options.input,
-                               stage, options.timeLimit);
-        case End::Interrupted: return fmt::format("{}: interrupted while {}; nothing was written", options.input, stage);
+            return fmt::format(
+                "{}: {} took longer than the time limit of {} s: take coarser bounds or a longer --time-limit",
+                options.input, stage, options.timeLimit);
+        case End::Interrupted:
+            return fmt::format("{}: interrupted while {}; nothing was written", options.input, stage);
         case End::Signal:
-            return fmt::format("{}: a library crashed ({}) while {}: is the file whole?", options.input, strsignal(outcome.code), stage);
-        default: return fmt::format("{}: a library gave up (exit {}) while {}: is the file whole?", options.input, outcome.code, stage);
+            return fmt::format("{}: a library crashed ({}) while {}: is the file whole?", options.input,
+                               strsignal(outcome.code), stage);
+        default:
+            return fmt::format("{}: a library gave up (exit {}) while {}: is the file whole?", options.input,
+                               outcome.code, stage);
     }
 }
 
@@ -122,7 +133,8 @@ int run(const Options& options) {
     ProgressLine progress(options.quiet);
     ChildLimits limits;
     const double longest = 1e8;  // seconds, so that the clock does not overflow
-    limits.deadline = start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(options.timeLimit, longest)));
+    limits.deadline = start + std::chrono::duration_cast<Clock::duration>(
+                                  std::chrono::duration<double>(std::min(options.timeLimit, longest)));
     limits.memoryBytes = memoryLimit();
     limits.ownProcessGroup = true;
     const auto work = [&](const MessagePipe& pipe) {
@@ -141,7 +153,8 @@ int run(const Options& options) {
     const ChildOutcome outcome = runInChild(limits, work, onMessage);
     progress.clear();
     if (outcome.end != ChildOutcome::End::Finished) {
-        fmt::print(stderr, "tetralux: {}\n", problemOf(outcome, options, progress.name().empty() ? "starting" : progress.name()));
+        fmt::print(stderr, "tetralux: {}\n",
+                   problemOf(outcome, options, progress.name().empty() ? "starting" : progress.name()));
         return badInput;
     }
     writeReport(options.report, outcome.result);

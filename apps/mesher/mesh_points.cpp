@@ -20,8 +20,8 @@
 namespace tetralux::mesher {
 namespace {
 
-/// Whether all points lie within rounding of one plane (TetGen ends the program then): the two points farthest along make a line, the
-/// farthest from it a plane, and the farthest from that a height.
+/// Whether all points lie within rounding of one plane (TetGen ends the program then): the two points farthest along
+/// make a line, the farthest from it a plane, and the farthest from that a height.
 bool coplanar(const std::vector<glm::dvec3>& points) {
     const auto farthest = [&](const auto& measure) {
         std::size_t best = 0;
@@ -45,14 +45,17 @@ bool coplanar(const std::vector<glm::dvec3>& points) {
 }
 
 void check(const std::vector<glm::dvec3>& points) {
-    if (points.size() < 4) throw std::runtime_error(fmt::format("{} different points: a tetrahedron needs four", points.size()));
+    if (points.size() < 4)
+        throw std::runtime_error(fmt::format("{} different points: a tetrahedron needs four", points.size()));
     for (std::size_t i = 0; i < points.size(); ++i)
         if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y) || !std::isfinite(points[i].z))
             throw std::runtime_error(fmt::format("point {} has a NaN or infinite coordinate: remove it", i));
-    if (coplanar(points)) throw std::runtime_error("all points lie in one plane and enclose no volume: add points off it");
+    if (coplanar(points))
+        throw std::runtime_error("all points lie in one plane and enclose no volume: add points off it");
 }
 
-RawTetrahedra delaunay(const std::vector<glm::dvec3>& points, const Options& options, [[maybe_unused]] const Deadline& deadline) {
+RawTetrahedra delaunay(const std::vector<glm::dvec3>& points, const Options& options,
+                       [[maybe_unused]] const Deadline& deadline) {
 #ifdef TETRALUX_CGAL
     if (options.method == "cgal") return delaunayByCgal(points);
 #endif
@@ -60,21 +63,23 @@ RawTetrahedra delaunay(const std::vector<glm::dvec3>& points, const Options& opt
     if (options.method == "tetgen") return delaunayByTetGen(points, deadline);
 #endif
     (void)points;
-    throw std::runtime_error(fmt::format("this tetralux-mesher was built without --method {}: take the other one", options.method));
+    throw std::runtime_error(
+        fmt::format("this tetralux-mesher was built without --method {}: take the other one", options.method));
 }
 
 }  // namespace
 
-mesh::TetMesh meshPoints(PolygonSoup&& cloud, const Options& options, const Deadline& deadline, const Listener& listener,
-                         nlohmann::json& report) {
+mesh::TetMesh meshPoints(PolygonSoup&& cloud, const Options& options, const Deadline& deadline,
+                         const Listener& listener, nlohmann::json& report) {
     TriangleSurface points{std::move(cloud.points), {}, std::move(cloud.fields)};
     const std::uint64_t merged = mergeCoincidentPoints(points);
     check(points.points);
     listener.stage("Delaunay tetrahedra");
     Assembly assembly = assemble(delaunay(points.points, options, deadline));
-    if (assembly.mesh.cells.empty()) throw std::runtime_error("all points lie almost in one plane and enclose no volume: add points off it");
-    listener.note(fmt::format("{} points, {} coinciding ones left out, {} flat cells left out ({})", points.points.size(), merged,
-                              assembly.flatCells, options.method));
+    if (assembly.mesh.cells.empty())
+        throw std::runtime_error("all points lie almost in one plane and enclose no volume: add points off it");
+    listener.note(fmt::format("{} points, {} coinciding ones left out, {} flat cells left out ({})",
+                              points.points.size(), merged, assembly.flatCells, options.method));
     for (const mesh::Field& field : points.fields) {
         mesh::Field taken{field.name, field.association, field.components, {}};
         const auto n = static_cast<std::size_t>(field.components);
@@ -82,7 +87,10 @@ mesh::TetMesh meshPoints(PolygonSoup&& cloud, const Options& options, const Dead
             for (std::size_t k = 0; k < n; ++k) taken.values.push_back(field.values[i * n + k]);
         assembly.mesh.fields.push_back(std::move(taken));
     }
-    report["cloud"] = {{"points", points.points.size()}, {"coinciding", merged}, {"flat_cells", assembly.flatCells}, {"method", options.method}};
+    report["cloud"] = {{"points", points.points.size()},
+                       {"coinciding", merged},
+                       {"flat_cells", assembly.flatCells},
+                       {"method", options.method}};
     return std::move(assembly.mesh);
 }
 

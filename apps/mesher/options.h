@@ -10,20 +10,20 @@ namespace tetralux::mesher {
 
 /// The command line of `tetralux mesh`.
 struct Options {
-    std::string input;                 ///< file, or generated field ("bucky:32")
-    std::string output;                ///< a .vtu file
+    std::string input;   ///< file, or generated field ("bucky:32")
+    std::string output;  ///< a .vtu file
     bool repair = false;
-    bool points = false;               ///< take a surface's points alone, as a cloud
-    double quality = 2.0;              ///< radius-edge ratio; 0: none
-    double maxVolume = 0.0;            ///< mesh units cubed; 0: none
+    bool points = false;     ///< take a surface's points alone, as a cloud
+    double quality = 2.0;    ///< radius-edge ratio; 0: none
+    double maxVolume = 0.0;  ///< mesh units cubed; 0: none
     bool keepSurface = false;
-    std::string method = "cgal";       ///< for point clouds: "cgal" or "tetgen"
-    std::vector<std::string> fields;   ///< --field
-    std::uint64_t targetCells = 0;     ///< 0: as they come
+    std::string method = "cgal";          ///< for point clouds: "cgal" or "tetgen"
+    std::vector<std::string> fields;      ///< --field
+    std::uint64_t targetCells = 0;        ///< 0: as they come
     std::optional<double> maxFieldError;  ///< part of each field's range
-    double surfaceTolerance = 0.0;     ///< part of the bounding box' diagonal that coarsening may move the surface by
-    double timeLimit = 3600.0;         ///< seconds
-    std::string report;                ///< JSON file
+    double surfaceTolerance = 0.0;  ///< part of the bounding box' diagonal that coarsening may move the surface by
+    double timeLimit = 3600.0;      ///< seconds
+    std::string report;             ///< JSON file
     bool quiet = false;
 };
 

@@ -27,7 +27,8 @@ mesh::TetMesh meshSoup(PolygonSoup&& soup, const Options& options, const Deadlin
                        nlohmann::json& report) {
     try {
         if (soup.points.empty()) throw std::runtime_error("no points are in it");
-        if (soup.polygons.empty() || options.points) return meshPoints(std::move(soup), options, deadline, listener, report);
+        if (soup.polygons.empty() || options.points)
+            return meshPoints(std::move(soup), options, deadline, listener, report);
         return meshSurface(triangulatePolygons(soup), options, deadline, listener, report);
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(fmt::format("{}: {}", options.input, error.what()));
@@ -37,7 +38,8 @@ mesh::TetMesh meshSoup(PolygonSoup&& soup, const Options& options, const Deadlin
 /// A mesh that was read as cells, with what reading found said aloud.
 mesh::TetMesh cellsOf(mesh::ReadResult&& read, const Listener& listener, nlohmann::json& report) {
     std::string types;
-    for (const auto& [type, count] : read.report.cellTypes) types += fmt::format("{}{} {}", types.empty() ? "" : ", ", count, type);
+    for (const auto& [type, count] : read.report.cellTypes)
+        types += fmt::format("{}{} {}", types.empty() ? "" : ", ", count, type);
     if (!types.empty()) listener.note("cells read: " + types);
     for (const auto& [defect, found] : read.report.defects) {
         listener.note(fmt::format("found: {} {}", found.count, mesh::defectName(defect)));
@@ -57,7 +59,8 @@ void addFields(mesh::TetMesh& mesh, const Options& options, const Listener& list
     listener.note("field distance: to the surface, as the input has no values (--field gives others)");
 }
 
-void coarsen(mesh::TetMesh& mesh, const Options& options, const Deadline& deadline, const Listener& listener, nlohmann::json& report) {
+void coarsen(mesh::TetMesh& mesh, const Options& options, const Deadline& deadline, const Listener& listener,
+             nlohmann::json& report) {
     if (options.targetCells == 0 && !options.maxFieldError) return;
     listener.stage("coarsening");
     SimplifyOptions bounds;
@@ -71,24 +74,29 @@ void coarsen(mesh::TetMesh& mesh, const Options& options, const Deadline& deadli
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(fmt::format("{}: {}", options.input, error.what()));
     }
-    listener.note(fmt::format("coarsened from {} to {} tetrahedra; largest error {:.3g} of the field's range (rms {:.3g}) at the points "
-                              "of the fine mesh; surface moved by {:.3g}",
-                              done.cellsBefore, mesh.cells.size(), done.maxError, done.rmsError, done.surfaceDeviation));
+    listener.note(fmt::format(
+        "coarsened from {} to {} tetrahedra; largest error {:.3g} of the field's range (rms {:.3g}) at the points "
+        "of the fine mesh; surface moved by {:.3g}",
+        done.cellsBefore, mesh.cells.size(), done.maxError, done.rmsError, done.surfaceDeviation));
     if (options.targetCells > 0 && mesh.cells.size() > options.targetCells)
         listener.note(fmt::format("{} tetrahedra were asked for: {}", options.targetCells, done.stopReason));
-    report["coarsening"] = {{"cells_before", done.cellsBefore}, {"cells", mesh.cells.size()}, {"max_field_error", done.maxError},
-                            {"rms_field_error", done.rmsError}, {"surface_deviation", done.surfaceDeviation}, {"stopped_by", done.stopReason}};
+    report["coarsening"] = {{"cells_before", done.cellsBefore},           {"cells", mesh.cells.size()},
+                            {"max_field_error", done.maxError},           {"rms_field_error", done.rmsError},
+                            {"surface_deviation", done.surfaceDeviation}, {"stopped_by", done.stopReason}};
 }
 
 void accountFor(const mesh::TetMesh& mesh, const Listener& listener, nlohmann::json& report) {
     double volume = 0.0, smallest = std::numeric_limits<double>::max();
     for (const auto& c : mesh.cells) {
-        const double v = mesh::sixVolumes(mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]], mesh.positions[c[3]]) / 6.0;
+        const double v =
+            mesh::sixVolumes(mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]], mesh.positions[c[3]]) /
+            6.0;
         volume += v;
         smallest = std::min(smallest, v);
     }
-    listener.note(fmt::format("{} tetrahedra, {} points, volume {:.9g}, smallest cell {:.3g}, worst radius-edge ratio {:.3g}", mesh.cells.size(),
-                              mesh.positions.size(), volume, smallest, worstRadiusEdgeRatio(mesh)));
+    listener.note(
+        fmt::format("{} tetrahedra, {} points, volume {:.9g}, smallest cell {:.3g}, worst radius-edge ratio {:.3g}",
+                    mesh.cells.size(), mesh.positions.size(), volume, smallest, worstRadiusEdgeRatio(mesh)));
     report["cells"] = mesh.cells.size();
     report["points"] = mesh.positions.size();
     report["volume"] = volume;
@@ -105,7 +113,8 @@ void accountFor(const mesh::TetMesh& mesh, const Listener& listener, nlohmann::j
 
 }  // namespace
 
-nlohmann::json makeMesh(const Options& options, const std::string& temporary, const Deadline& deadline, const Listener& listener) {
+nlohmann::json makeMesh(const Options& options, const std::string& temporary, const Deadline& deadline,
+                        const Listener& listener) {
     nlohmann::json report;
     report["input"] = options.input;
     listener.stage("reading");
@@ -120,7 +129,8 @@ nlohmann::json makeMesh(const Options& options, const std::string& temporary, co
     try {
         mesh::writeVtu(temporary, mesh);
     } catch (const std::runtime_error&) {
-        throw std::runtime_error(fmt::format("{}: the mesh cannot be written there: is there room on the disk?", options.output));
+        throw std::runtime_error(
+            fmt::format("{}: the mesh cannot be written there: is there room on the disk?", options.output));
     }
     return report;
 }

@@ -17,8 +17,10 @@ struct Listener {
     std::function<void(const std::string&)> note;   ///< a line of the account for people
 };
 
-/// Everything between input and output: reads, checks, mends, makes tetrahedra, adds fields, coarsens, and writes to `temporary`.
-/// Returns the account for machines. \throws std::runtime_error with one line that names the input and what would mend it.
-nlohmann::json makeMesh(const Options& options, const std::string& temporary, const Deadline& deadline, const Listener& listener);
+/// Everything between input and output: reads, checks, mends, makes tetrahedra, adds fields, coarsens, and writes to
+/// `temporary`. Returns the account for machines. \throws std::runtime_error with one line that names the input and
+/// what would mend it.
+nlohmann::json makeMesh(const Options& options, const std::string& temporary, const Deadline& deadline,
+                        const Listener& listener);
 
 }  // namespace tetralux::mesher

@@ -2,10 +2,10 @@
 #include "polydata_vtk.h"
 
 #include <fmt/format.h>
+#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 #include <vtkCommand.h>
-#include <vtkCallbackCommand.h>
 #include <vtkDataArray.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
@@ -27,7 +27,9 @@
 namespace tetralux::mesher {
 namespace {
 
-void noteError(vtkObject*, unsigned long, void* seen, void*) { *static_cast<bool*>(seen) = true; }
+void noteError(vtkObject*, unsigned long, void* seen, void*) {
+    *static_cast<bool*>(seen) = true;
+}
 
 template <class Reader>
 vtkPolyData* readWith(Reader* reader, const std::string& path) {
@@ -47,8 +49,8 @@ void addPolygon(vtkIdType count, const vtkIdType* ids, std::size_t points, const
     std::vector<std::uint32_t> polygon;
     for (vtkIdType k = 0; k < count; ++k) {
         if (ids[k] < 0 || static_cast<std::size_t>(ids[k]) >= points)
-            throw std::runtime_error(fmt::format("{}: polygon {} names point {}, but there are {}: write the file anew", path,
-                                                 soup.polygons.size(), ids[k], points));
+            throw std::runtime_error(fmt::format("{}: polygon {} names point {}, but there are {}: write the file anew",
+                                                 path, soup.polygons.size(), ids[k], points));
         polygon.push_back(static_cast<std::uint32_t>(ids[k]));
     }
     if (polygon.size() >= 3) soup.polygons.push_back(std::move(polygon));
@@ -62,11 +64,13 @@ PolygonSoup soupOf(vtkPolyData* data, const std::string& path) {
     for (vtkIdType i = 0; i < count; ++i) data->GetPoint(i, &soup.points[static_cast<std::size_t>(i)].x);
     vtkIdType n = 0;
     const vtkIdType* ids = nullptr;
-    for (auto cell = vtk::TakeSmartPointer(data->GetPolys()->NewIterator()); !cell->IsDoneWithTraversal(); cell->GoToNextCell()) {
+    for (auto cell = vtk::TakeSmartPointer(data->GetPolys()->NewIterator()); !cell->IsDoneWithTraversal();
+         cell->GoToNextCell()) {
         cell->GetCurrentCell(n, ids);
         addPolygon(n, ids, points, path, soup);
     }
-    for (auto cell = vtk::TakeSmartPointer(data->GetStrips()->NewIterator()); !cell->IsDoneWithTraversal(); cell->GoToNextCell()) {
+    for (auto cell = vtk::TakeSmartPointer(data->GetStrips()->NewIterator()); !cell->IsDoneWithTraversal();
+         cell->GoToNextCell()) {
         cell->GetCurrentCell(n, ids);
         for (vtkIdType k = 0; k + 2 < n; ++k) {  // every other triangle of a strip is turned over
             const vtkIdType triangle[3] = {ids[k], ids[k + 1 + k % 2], ids[k + 2 - k % 2]};
@@ -93,7 +97,8 @@ bool isLegacyPolyData(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::string line;
     for (int i = 0; i < 6 && std::getline(file, line) && line.size() < 1000; ++i) {
-        std::transform(line.begin(), line.end(), line.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+        std::transform(line.begin(), line.end(), line.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
         if (line.find("DATASET") != std::string::npos) return line.find("POLYDATA") != std::string::npos;
     }
     return false;
@@ -131,7 +136,8 @@ TriangleSurface triangulatePolygons(const PolygonSoup& soup) {
             polygon->PointIds->SetId(static_cast<vtkIdType>(k), static_cast<vtkIdType>(k));
         }
         corners->Reset();
-        if (polygon->Triangulate(corners) != 0 && corners->GetNumberOfIds() == 3 * static_cast<vtkIdType>(p.size() - 2)) {
+        if (polygon->Triangulate(corners) != 0 &&
+            corners->GetNumberOfIds() == 3 * static_cast<vtkIdType>(p.size() - 2)) {
             const auto corner = [&](vtkIdType i) { return p[static_cast<std::size_t>(corners->GetId(i))]; };
             for (vtkIdType i = 0; i < corners->GetNumberOfIds(); i += 3)
                 surface.triangles.push_back({corner(i), corner(i + 1), corner(i + 2)});

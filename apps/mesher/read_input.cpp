@@ -20,7 +20,9 @@ PolygonSoup readSurfaceFile(const std::string& path) {
 #ifdef TETRALUX_CGAL
     return readSoupByCgal(path);
 #else
-    throw std::runtime_error(fmt::format("{}: this tetralux-mesher was built without CGAL: convert the file to .vtp, or build with TETRALUX_CGAL=ON", path));
+    throw std::runtime_error(fmt::format(
+        "{}: this tetralux-mesher was built without CGAL: convert the file to .vtp, or build with TETRALUX_CGAL=ON",
+        path));
 #endif
 }
 

@@ -68,8 +68,10 @@ char separatorOf(std::string_view line) {
 std::array<std::size_t, 3> positionColumns(const std::vector<std::string>& names) {
     std::vector<std::string> small = names;
     for (std::string& name : small)
-        std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const std::array<std::array<const char*, 3>, 3> families{{{"x", "y", "z"}, {"points:0", "points:1", "points:2"}, {"points_0", "points_1", "points_2"}}};
+        std::transform(name.begin(), name.end(), name.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::array<std::array<const char*, 3>, 3> families{
+        {{"x", "y", "z"}, {"points:0", "points:1", "points:2"}, {"points_0", "points_1", "points_2"}}};
     for (const auto& family : families) {
         std::array<std::size_t, 3> columns{};
         bool all = true;
@@ -89,14 +91,16 @@ public:
 
     PolygonSoup read() {
         std::ifstream file(path_, std::ios::binary);
-        if (!file) throw std::runtime_error(fmt::format("{}: cannot be opened: check the name and the permissions", path_));
+        if (!file)
+            throw std::runtime_error(fmt::format("{}: cannot be opened: check the name and the permissions", path_));
         std::string line;
         for (line_ = 1; std::getline(file, line); ++line_) {
             std::string_view text = line;
             if (line_ == 1 && text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // byte order mark
             take(csv_ ? text : withoutComment(text));
         }
-        if (!started_) throw std::runtime_error(fmt::format("{}: no points: each line needs x, y, z and its values", path_));
+        if (!started_)
+            throw std::runtime_error(fmt::format("{}: no points: each line needs x, y, z and its values", path_));
         return std::move(soup_);
     }
 
@@ -129,7 +133,8 @@ private:
     }
 
     void start(std::size_t columns) {
-        if (columns < 3 || columns > mostColumns) fail(fmt::format("has {} columns; x, y, z and values are needed", columns));
+        if (columns < 3 || columns > mostColumns)
+            fail(fmt::format("has {} columns; x, y, z and values are needed", columns));
         if (!names_.empty() && names_.size() != columns)
             fail(fmt::format("has {} columns, the header {}", columns, names_.size()));
         columns_ = columns;
@@ -139,7 +144,9 @@ private:
             if (std::find(position_.begin(), position_.end(), c) != position_.end()) continue;
             fieldColumns_.push_back(c);
             const std::size_t n = fieldColumns_.size();
-            std::string name = !names_.empty() && !names_[c].empty() ? names_[c] : n == 1 ? "value" : fmt::format("value{}", n);
+            std::string name = !names_.empty() && !names_[c].empty() ? names_[c]
+                               : n == 1                              ? "value"
+                                                                     : fmt::format("value{}", n);
             soup_.fields.push_back({std::move(name), mesh::Association::Point, 1, {}});
         }
         started_ = true;
@@ -164,6 +171,8 @@ private:
 
 }  // namespace
 
-PolygonSoup readPointsText(const std::string& path) { return Table(path).read(); }
+PolygonSoup readPointsText(const std::string& path) {
+    return Table(path).read();
+}
 
 }  // namespace tetralux::mesher

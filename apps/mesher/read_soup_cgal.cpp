@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program that links this file's object is under the GPL-3.0 (or later): CGAL's Point_set_3 is; its other readers are under the LGPL-3.0.
+// A program that links this file's object is under the GPL-3.0 (or later): CGAL's Point_set_3 is; its other readers are
+// under the LGPL-3.0.
 #include "read_soup_cgal.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -71,8 +72,8 @@ std::vector<mesh::Field> plyFields(std::istream& file, std::size_t pointCount) {
     std::vector<mesh::Field> fields;
     if (!CGAL::IO::read_PLY(file, points) || points.size() != pointCount) return fields;
     for (const std::string& name : points.properties()) {
-        if (name == "index" || name == "point" || name == "normal" || name == "red" || name == "green" || name == "blue" ||
-            name == "alpha")
+        if (name == "index" || name == "point" || name == "normal" || name == "red" || name == "green" ||
+            name == "blue" || name == "alpha")
             continue;
         addProperty<float>(points, name, fields) || addProperty<double>(points, name, fields) ||
             addProperty<std::int32_t>(points, name, fields) || addProperty<std::uint32_t>(points, name, fields) ||
@@ -93,7 +94,8 @@ PolygonSoup readSoupByCgal(const std::string& path) {
     {
         const ErrorCapture capture;
         if (!parse(file, ending, points, polygons))
-            throw std::runtime_error(fmt::format("{}: not a whole {} file ({}): write it anew", path, ending.substr(1), capture.text()));
+            throw std::runtime_error(
+                fmt::format("{}: not a whole {} file ({}): write it anew", path, ending.substr(1), capture.text()));
     }
     PolygonSoup soup;
     soup.points.reserve(points.size());
@@ -102,8 +104,9 @@ PolygonSoup readSoupByCgal(const std::string& path) {
     for (std::size_t i = 0; i < polygons.size(); ++i) {
         for (const std::size_t index : polygons[i])
             if (index >= points.size())
-                throw std::runtime_error(fmt::format("{}: face {} names point {}, but there are {}: write the file anew", path, i,
-                                                     index, points.size()));
+                throw std::runtime_error(
+                    fmt::format("{}: face {} names point {}, but there are {}: write the file anew", path, i, index,
+                                points.size()));
         if (polygons[i].size() >= 3) soup.polygons.emplace_back(polygons[i].begin(), polygons[i].end());
     }
     if (ending == ".ply") {

@@ -9,8 +9,9 @@
 
 namespace tetralux::mesher {
 
-/// Reads `.stl` (ASCII or binary; points that coincide exactly become one), `.off`, `.obj` or `.ply` (ASCII or binary, with its numeric
-/// vertex properties as fields). \throws std::runtime_error naming the file when it is broken or its ending is another.
+/// Reads `.stl` (ASCII or binary; points that coincide exactly become one), `.off`, `.obj` or `.ply` (ASCII or binary,
+/// with its numeric vertex properties as fields). \throws std::runtime_error naming the file when it is broken or its
+/// ending is another.
 PolygonSoup readSoupByCgal(const std::string& path);
 
 }  // namespace tetralux::mesher

@@ -35,7 +35,8 @@ void dropNonFinite(Soup& soup, std::vector<std::string>& done) {
     });
     for (auto& p : soup.points)  // no triangle uses them now, but they would upset sorting
         if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z())) p = Kernel::Point_3(0, 0, 0);
-    say(done, dropped, "triangle with NaN or infinite coordinates dropped", "triangles with NaN or infinite coordinates dropped");
+    say(done, dropped, "triangle with NaN or infinite coordinates dropped",
+        "triangles with NaN or infinite coordinates dropped");
 }
 
 void mergePoints(Soup& soup, std::vector<std::string>& done) {
@@ -47,7 +48,8 @@ void mergePoints(Soup& soup, std::vector<std::string>& done) {
     std::erase_if(soup.triangles, [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
     PMP::merge_duplicate_polygons_in_polygon_soup(soup.points, soup.triangles);
     PMP::remove_isolated_points_in_polygon_soup(soup.points, soup.triangles);
-    say(done, before - soup.triangles.size(), "collapsed or double triangle dropped", "collapsed or double triangles dropped");
+    say(done, before - soup.triangles.size(), "collapsed or double triangle dropped",
+        "collapsed or double triangles dropped");
 }
 
 void fillHoles(SurfaceMesh& mesh, std::vector<std::string>& done) {
@@ -60,7 +62,9 @@ void fillHoles(SurfaceMesh& mesh, std::vector<std::string>& done) {
         filled += faces.empty() ? 0 : 1;
         added += faces.size();
     }
-    if (filled > 0) done.push_back(fmt::format("{} filled with {} triangles", filled == 1 ? "1 hole" : fmt::format("{} holes", filled), added));
+    if (filled > 0)
+        done.push_back(fmt::format("{} filled with {} triangles",
+                                   filled == 1 ? "1 hole" : fmt::format("{} holes", filled), added));
 }
 
 void removeSelfIntersections(SurfaceMesh& mesh, std::vector<std::string>& done) {

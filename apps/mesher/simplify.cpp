@@ -21,14 +21,15 @@ using mesh::CellIndex;
 using mesh::PointIndex;
 using mesh::Tetrahedron;
 
-constexpr double goodEnough = 0.05;       // shape from which on cells may get worse freely; 1 is regular
-constexpr double leastTolerance = 1e-9;   // part of the diagonal: what counts as flat
-constexpr double leastNormalCosine = 0.5; // surface triangles turn by 60° at most
+constexpr double goodEnough = 0.05;        // shape from which on cells may get worse freely; 1 is regular
+constexpr double leastTolerance = 1e-9;    // part of the diagonal: what counts as flat
+constexpr double leastNormalCosine = 0.5;  // surface triangles turn by 60° at most
 
 /// √2·6V / (longest edge)³: 1 for a regular tetrahedron, 0 for a flat one, negative for an inverted one.
 double shape(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
     const auto squared = [](const glm::dvec3& e) { return glm::dot(e, e); };
-    const double longest = std::max({squared(b - a), squared(c - a), squared(d - a), squared(c - b), squared(d - c), squared(d - b)});
+    const double longest =
+        std::max({squared(b - a), squared(c - a), squared(d - a), squared(c - b), squared(d - c), squared(d - b)});
     return std::numbers::sqrt2 * mesh::sixVolumes(a, b, c, d) / (longest * std::sqrt(longest));
 }
 
@@ -36,7 +37,8 @@ double distanceToTriangle(const glm::dvec3& p, const glm::dvec3& a, const glm::d
     const glm::dvec3 n = glm::cross(b - a, c - a);
     const double nn = glm::dot(n, n);
     if (nn > 0.0) {
-        const double u = glm::dot(glm::cross(c - b, p - b), n), v = glm::dot(glm::cross(a - c, p - c), n), w = glm::dot(glm::cross(b - a, p - a), n);
+        const double u = glm::dot(glm::cross(c - b, p - b), n), v = glm::dot(glm::cross(a - c, p - c), n),
+                     w = glm::dot(glm::cross(b - a, p - a), n);
         if (u >= 0.0 && v >= 0.0 && w >= 0.0) return std::abs(glm::dot(p - a, n)) / std::sqrt(nn);
     }
     const auto toSegment = [&](const glm::dvec3& from, const glm::dvec3& to) {
@@ -50,7 +52,8 @@ double distanceToTriangle(const glm::dvec3& p, const glm::dvec3& a, const glm::d
 
 class Simplifier {
 public:
-    Simplifier(mesh::TetMesh& mesh, const SimplifyOptions& options) : mesh_(mesh), options_(options), cells_(mesh.cells) {
+    Simplifier(mesh::TetMesh& mesh, const SimplifyOptions& options)
+        : mesh_(mesh), options_(options), cells_(mesh.cells) {
         const mesh::BoundingBox box = mesh::usedBounds(mesh.positions, mesh.cells);
         diagonal_ = glm::length(box.high - box.low);
         tolerance_ = std::max(options.surfaceTolerance, leastTolerance) * diagonal_;
@@ -82,7 +85,8 @@ public:
                 report.stopReason = "the target is reached";
                 break;
             }
-            if (++steps % 1024 == 0 && options_.deadline && std::chrono::steady_clock::now() >= *options_.deadline - std::chrono::seconds(5)) {
+            if (++steps % 1024 == 0 && options_.deadline &&
+                std::chrono::steady_clock::now() >= *options_.deadline - std::chrono::seconds(5)) {
                 report.stopReason = "the time limit came first";
                 break;
             }
@@ -101,15 +105,15 @@ public:
 
 private:
     struct Candidate {
-        double key;      // rough: the error that u alone gets
+        double key;  // rough: the error that u alone gets
         PointIndex onto;
         friend bool operator<(const Candidate& a, const Candidate& b) { return a.key < b.key; }
     };
     /// What a collapse would make of the star of u.
     struct Outcome {
-        std::vector<CellIndex> kept;       // cells that stay, with u replaced
-        std::vector<Tetrahedron> renewed;  // they, so replaced
-        std::vector<Triangle> surface;     // new surface triangles (u on the surface)
+        std::vector<CellIndex> kept;                             // cells that stay, with u replaced
+        std::vector<Tetrahedron> renewed;                        // they, so replaced
+        std::vector<Triangle> surface;                           // new surface triangles (u on the surface)
         std::vector<std::pair<PointIndex, std::size_t>> placed;  // points that went → place in `kept`
         std::vector<double> errors, deviations;                  // of these points
         double worst = 0.0;                                      // largest error
@@ -119,7 +123,8 @@ private:
     void collectValues() {
         for (const mesh::Field& field : mesh_.fields) {
             if (field.association == mesh::Association::Cell)
-                throw std::runtime_error("coarsening needs values on points: field '" + field.name + "' is on cells; average it to points first");
+                throw std::runtime_error("coarsening needs values on points: field '" + field.name +
+                                         "' is on cells; average it to points first");
             components_ += static_cast<std::size_t>(field.components);
         }
         if (components_ == 0) throw std::runtime_error("coarsening needs a field on points: give one with --field");
@@ -146,8 +151,8 @@ private:
     std::array<double, 4> weights(const Tetrahedron& t, const glm::dvec3& p) const {
         const glm::dvec3 &a = at(t[0]), &b = at(t[1]), &c = at(t[2]), &d = at(t[3]);
         const double six = mesh::sixVolumes(a, b, c, d);
-        return {mesh::sixVolumes(p, b, c, d) / six, mesh::sixVolumes(a, p, c, d) / six, mesh::sixVolumes(a, b, p, d) / six,
-                mesh::sixVolumes(a, b, c, p) / six};
+        return {mesh::sixVolumes(p, b, c, d) / six, mesh::sixVolumes(a, p, c, d) / six,
+                mesh::sixVolumes(a, b, p, d) / six, mesh::sixVolumes(a, b, c, p) / six};
     }
 
     double fieldError(const Tetrahedron& t, const std::array<double, 4>& w, PointIndex p) const {
@@ -219,7 +224,8 @@ private:
                 neighbours = true;
                 continue;
             }
-            const glm::dvec3 before = glm::cross(at(f[1]) - at(u), at(f[2]) - at(u)), after = glm::cross(at(f[1]) - at(v), at(f[2]) - at(v));
+            const glm::dvec3 before = glm::cross(at(f[1]) - at(u), at(f[2]) - at(u)),
+                             after = glm::cross(at(f[1]) - at(v), at(f[2]) - at(v));
             const double lengths = glm::length(before) * glm::length(after);
             if (!(lengths > 0.0) || glm::dot(before, after) < leastNormalCosine * lengths) return false;
             outcome.surface.push_back({v, f[1], f[2]});
@@ -245,12 +251,14 @@ private:
 
     double deviationOf(PointIndex p, const std::vector<Triangle>& surface) const {
         double least = std::numeric_limits<double>::infinity();
-        for (const Triangle& t : surface) least = std::min(least, distanceToTriangle(at(p), at(t[0]), at(t[1]), at(t[2])));
+        for (const Triangle& t : surface)
+            least = std::min(least, distanceToTriangle(at(p), at(t[0]), at(t[1]), at(t[2])));
         return least;
     }
 
     /// The cells after pulling u onto v; nothing where one would be flat, inverted or misshapen.
-    std::optional<Outcome> reshape(PointIndex u, PointIndex v, const std::vector<Triangle>& fan, double worstBefore) const {
+    std::optional<Outcome> reshape(PointIndex u, PointIndex v, const std::vector<Triangle>& fan,
+                                   double worstBefore) const {
         Outcome outcome;
         if (onSurface_[u] && (!onSurface_[v] || !renewSurface(fan, u, v, outcome))) return std::nullopt;
         const double floor = std::min(goodEnough, worstBefore);
@@ -418,10 +426,10 @@ private:
 
     mesh::TetMesh& mesh_;
     const SimplifyOptions& options_;
-    std::vector<Tetrahedron> cells_;             // {0, 0, 0, 0} once gone
-    double diagonal_ = 0.0, tolerance_ = 0.0;    // mesh units
+    std::vector<Tetrahedron> cells_;           // {0, 0, 0, 0} once gone
+    double diagonal_ = 0.0, tolerance_ = 0.0;  // mesh units
     std::size_t components_ = 0;
-    std::vector<double> values_;                 // components_ per point, each in parts of its range
+    std::vector<double> values_;  // components_ per point, each in parts of its range
     std::vector<std::vector<CellIndex>> cellsOf_;
     std::vector<bool> onSurface_, dirty_, parked_;
     std::vector<std::vector<PointIndex>> guests_;  // per cell: the points that went and lie in it
@@ -433,6 +441,8 @@ private:
 
 }  // namespace
 
-SimplifyReport simplify(mesh::TetMesh& mesh, const SimplifyOptions& options) { return Simplifier(mesh, options).run(); }
+SimplifyReport simplify(mesh::TetMesh& mesh, const SimplifyOptions& options) {
+    return Simplifier(mesh, options).run();
+}
 
 }  // namespace tetralux::mesher

@@ -27,12 +27,16 @@ struct HalfEdge {
     }
 };
 
-std::string place(const glm::dvec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
+std::string place(const glm::dvec3& p) {
+    return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
+}
 
-bool isFinite(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+bool isFinite(const glm::dvec3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
 
-/// Exactly flat: the three coordinate projections all have no area. Rounded differences make this a test in doubles; what it misses,
-/// the check by CGAL's exact predicates finds.
+/// Exactly flat: the three coordinate projections all have no area. Rounded differences make this a test in doubles;
+/// what it misses, the check by CGAL's exact predicates finds.
 bool degenerate(const TriangleSurface& surface, const Triangle& t) {
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return true;
     const glm::dvec3 a = surface.points[t[1]] - surface.points[t[0]], b = surface.points[t[2]] - surface.points[t[0]];
@@ -43,7 +47,8 @@ bool degenerate(const TriangleSurface& surface, const Triangle& t) {
 /// Adds one to the finding of that defect, whose first place `where` tells.
 template <class Where>
 void count(SurfaceFindings& findings, SurfaceDefect defect, const Where& where) {
-    const auto found = std::find_if(findings.begin(), findings.end(), [&](const auto& f) { return f.defect == defect; });
+    const auto found =
+        std::find_if(findings.begin(), findings.end(), [&](const auto& f) { return f.defect == defect; });
     if (found != findings.end())
         ++found->count;
     else
@@ -130,18 +135,28 @@ void checkEdges(const TriangleSurface& surface, SurfaceFindings& findings) {
 std::string text(const DefectFinding& finding) {
     const bool one = finding.count == 1;
     const auto say = [&](const char* single, const char* many) {
-        return fmt::format("{} {} ({}{})", finding.count, one ? single : many, one || finding.defect == SurfaceDefect::Hole ? "" : "first: ",
-                           finding.where);
+        return fmt::format("{} {} ({}{})", finding.count, one ? single : many,
+                           one || finding.defect == SurfaceDefect::Hole ? "" : "first: ", finding.where);
     };
     switch (finding.defect) {
-        case SurfaceDefect::NonFinitePoint: return say("point with a NaN or infinite coordinate", "points with NaN or infinite coordinates");
-        case SurfaceDefect::DegenerateTriangle: return say("degenerate triangle", "degenerate triangles");
-        case SurfaceDefect::DuplicateTriangle: return say("triangle given twice", "triangles given twice");
-        case SurfaceDefect::NonManifoldEdge: return say("non-manifold edge with more than two triangles", "non-manifold edges with more than two triangles");
-        case SurfaceDefect::InconsistentEdge: return say("edge whose triangles are oriented against each other", "edges whose triangles are oriented against each other");
-        case SurfaceDefect::Hole: return say("hole", "holes");
-        case SurfaceDefect::SelfIntersection: return say("self-intersection", "self-intersections");
-        case SurfaceDefect::WrongSide: return say("shell oriented to the wrong side", "shells oriented to the wrong side");
+        case SurfaceDefect::NonFinitePoint:
+            return say("point with a NaN or infinite coordinate", "points with NaN or infinite coordinates");
+        case SurfaceDefect::DegenerateTriangle:
+            return say("degenerate triangle", "degenerate triangles");
+        case SurfaceDefect::DuplicateTriangle:
+            return say("triangle given twice", "triangles given twice");
+        case SurfaceDefect::NonManifoldEdge:
+            return say("non-manifold edge with more than two triangles",
+                       "non-manifold edges with more than two triangles");
+        case SurfaceDefect::InconsistentEdge:
+            return say("edge whose triangles are oriented against each other",
+                       "edges whose triangles are oriented against each other");
+        case SurfaceDefect::Hole:
+            return say("hole", "holes");
+        case SurfaceDefect::SelfIntersection:
+            return say("self-intersection", "self-intersections");
+        case SurfaceDefect::WrongSide:
+            return say("shell oriented to the wrong side", "shells oriented to the wrong side");
     }
     return "an unknown defect";
 }
@@ -180,7 +195,9 @@ uint64_t mergeCoincidentPoints(TriangleSurface& surface) {
     std::iota(order.begin(), order.end(), 0u);
     const auto key = [&](uint32_t i) { return std::tie(points[i].x, points[i].y, points[i].z); };
     const auto finite = std::partition(order.begin(), order.end(), [&](uint32_t i) { return isFinite(points[i]); });
-    std::sort(order.begin(), finite, [&](uint32_t a, uint32_t b) { return std::tuple_cat(key(a), std::tie(a)) < std::tuple_cat(key(b), std::tie(b)); });
+    std::sort(order.begin(), finite, [&](uint32_t a, uint32_t b) {
+        return std::tuple_cat(key(a), std::tie(a)) < std::tuple_cat(key(b), std::tie(b));
+    });
 
     std::vector<uint32_t> keeper(points.size());
     std::iota(keeper.begin(), keeper.end(), 0u);
@@ -211,10 +228,12 @@ uint64_t mergeCoincidentPoints(TriangleSurface& surface) {
 
 double enclosedVolume(const TriangleSurface& surface) {
     if (surface.triangles.empty()) return 0.0;
-    const glm::dvec3 origin = surface.points[surface.triangles[0][0]];  // near the surface, so that large offsets cancel nothing
-    double sum = 0.0, lost = 0.0;                                       // Kahan's sum
+    const glm::dvec3 origin =
+        surface.points[surface.triangles[0][0]];  // near the surface, so that large offsets cancel nothing
+    double sum = 0.0, lost = 0.0;                 // Kahan's sum
     for (const Triangle& t : surface.triangles) {
-        const glm::dvec3 a = surface.points[t[0]] - origin, b = surface.points[t[1]] - origin, c = surface.points[t[2]] - origin;
+        const glm::dvec3 a = surface.points[t[0]] - origin, b = surface.points[t[1]] - origin,
+                         c = surface.points[t[2]] - origin;
         const double term = glm::dot(glm::cross(a, b), c) - lost;
         const double next = sum + term;
         lost = (next - sum) - term;

@@ -12,14 +12,14 @@
 namespace tetralux::mesher {
 
 enum class SurfaceDefect {
-    NonFinitePoint,       ///< NaN or infinite coordinate
-    DegenerateTriangle,   ///< two corners coincide or all three lie on a line
-    DuplicateTriangle,    ///< the same three points once more
-    NonManifoldEdge,      ///< more than two triangles meet at an edge
-    InconsistentEdge,     ///< its two triangles run along it in the same direction: one of them is turned over
-    Hole,                 ///< a loop of edges that have one triangle only
-    SelfIntersection,     ///< two triangles cut each other
-    WrongSide,            ///< a shell faces inward that should face outward, or the other way round
+    NonFinitePoint,      ///< NaN or infinite coordinate
+    DegenerateTriangle,  ///< two corners coincide or all three lie on a line
+    DuplicateTriangle,   ///< the same three points once more
+    NonManifoldEdge,     ///< more than two triangles meet at an edge
+    InconsistentEdge,    ///< its two triangles run along it in the same direction: one of them is turned over
+    Hole,                ///< a loop of edges that have one triangle only
+    SelfIntersection,    ///< two triangles cut each other
+    WrongSide,           ///< a shell faces inward that should face outward, or the other way round
 };
 
 /// One defect: how often, and the first place.
@@ -37,15 +37,15 @@ std::string describe(const SurfaceFindings& findings);
 /// What would mend these findings, as the end of a sentence.
 std::string remedy(const SurfaceFindings& findings);
 
-/// Everything that can be told from points and triangles without asking which triangles meet in space. `findings` ends with non-finite
-/// points where there are any: nothing else can then be told.
+/// Everything that can be told from points and triangles without asking which triangles meet in space. `findings` ends
+/// with non-finite points where there are any: nothing else can then be told.
 SurfaceFindings checkTopology(const TriangleSurface& surface);
 
 /// Makes points one that coincide to the last bit; fields keep the value of the first. Returns how many went.
 std::uint64_t mergeCoincidentPoints(TriangleSurface& surface);
 
-/// Volume between the surface and the origin side of its triangles, by the divergence theorem; positive for a closed surface that faces
-/// outward. Mesh units cubed.
+/// Volume between the surface and the origin side of its triangles, by the divergence theorem; positive for a closed
+/// surface that faces outward. Mesh units cubed.
 double enclosedVolume(const TriangleSurface& surface);
 
 /// How often the surface runs around `p`: 1 inside of an outward closed surface, 0 outside and in cavities

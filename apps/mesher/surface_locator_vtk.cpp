@@ -25,7 +25,8 @@ SurfaceLocator::SurfaceLocator(const TriangleSurface& surface) : impl_(new Impl{
     const vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
     points->SetNumberOfPoints(static_cast<vtkIdType>(surface.points.size()));
-    for (std::size_t i = 0; i < surface.points.size(); ++i) points->SetPoint(static_cast<vtkIdType>(i), &surface.points[i].x);
+    for (std::size_t i = 0; i < surface.points.size(); ++i)
+        points->SetPoint(static_cast<vtkIdType>(i), &surface.points[i].x);
     const vtkNew<vtkCellArray> triangles;
     for (const Triangle& t : surface.triangles) {
         const vtkIdType ids[3] = {t[0], t[1], t[2]};

@@ -32,7 +32,8 @@ inline Soup soupOf(const TriangleSurface& surface) {
     return soup;
 }
 
-/// Points and edges that are not manifold are made double, triangles turned where that makes neighbours agree: face i is triangle i.
+/// Points and edges that are not manifold are made double, triangles turned where that makes neighbours agree: face i
+/// is triangle i.
 inline SurfaceMesh meshOf(Soup soup) {
     namespace PMP = CGAL::Polygon_mesh_processing;
     PMP::orient_polygon_soup(soup.points, soup.triangles);

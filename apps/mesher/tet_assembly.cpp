@@ -76,12 +76,14 @@ double worstRadiusEdgeRatio(const mesh::TetMesh& mesh) {
     double worst = 0.0;
     for (const auto& cell : mesh.cells) {
         const glm::dvec3 a = mesh.positions[cell[0]];
-        const glm::dvec3 b = mesh.positions[cell[1]] - a, c = mesh.positions[cell[2]] - a, d = mesh.positions[cell[3]] - a;
+        const glm::dvec3 b = mesh.positions[cell[1]] - a, c = mesh.positions[cell[2]] - a,
+                         d = mesh.positions[cell[3]] - a;
         const double six = glm::dot(glm::cross(b, c), d);
-        const glm::dvec3 centre =
-            (glm::dot(b, b) * glm::cross(c, d) + glm::dot(c, c) * glm::cross(d, b) + glm::dot(d, d) * glm::cross(b, c)) / (2.0 * six);
-        const double shortest = std::min({glm::length(b), glm::length(c), glm::length(d), glm::length(b - c), glm::length(c - d),
-                                          glm::length(d - b)});
+        const glm::dvec3 centre = (glm::dot(b, b) * glm::cross(c, d) + glm::dot(c, c) * glm::cross(d, b) +
+                                   glm::dot(d, d) * glm::cross(b, c)) /
+                                  (2.0 * six);
+        const double shortest = std::min({glm::length(b), glm::length(c), glm::length(d), glm::length(b - c),
+                                          glm::length(c - d), glm::length(d - b)});
         worst = std::max(worst, glm::length(centre) / shortest);
     }
     return worst;

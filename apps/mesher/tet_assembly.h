@@ -14,13 +14,14 @@
 namespace tetralux::mesher {
 
 struct Assembly {
-    mesh::TetMesh mesh;                  ///< without fields
-    std::vector<std::uint32_t> source;   ///< for each point, its number among the raw points
-    std::uint64_t flatCells = 0;         ///< left out: their volume is zero in doubles
-    double volume = 0.0;                 ///< mesh units cubed
+    mesh::TetMesh mesh;                 ///< without fields
+    std::vector<std::uint32_t> source;  ///< for each point, its number among the raw points
+    std::uint64_t flatCells = 0;        ///< left out: their volume is zero in doubles
+    double volume = 0.0;                ///< mesh units cubed
 };
 
-/// Keeps the cells for which `keep` holds (all, if it is empty), turns inverted ones, leaves out flat ones and unused points.
+/// Keeps the cells for which `keep` holds (all, if it is empty), turns inverted ones, leaves out flat ones and unused
+/// points.
 Assembly assemble(const RawTetrahedra& raw, const std::vector<bool>& keep = {});
 
 /// The cells that lie inside of `surface` by its winding number, asked once per region at the region's largest cell.

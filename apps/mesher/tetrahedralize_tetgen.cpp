@@ -11,8 +11,9 @@
 #include <cstring>
 #include <limits>
 
-// The header defines terminatetetgen() inline; libtet's own copy throws an int, which its binary cannot unwind (SIGSEGV). As the symbol
-// is weak there, the definition below takes its place, and the header's copy gets another name.
+// The header defines terminatetetgen() inline; libtet's own copy throws an int, which its binary cannot unwind
+// (SIGSEGV). As the symbol is weak there, the definition below takes its place, and the header's copy gets another
+// name.
 #define terminatetetgen terminateTetGenOfHeader
 #include <tetgen.h>
 #undef terminatetetgen
@@ -22,13 +23,15 @@ constexpr int exitBase = 100;  // the child's exit codes are 100 + TetGen's own
 }
 
 void terminatetetgen(tetgenmesh*, int code);
-void terminatetetgen(tetgenmesh*, int code) { _exit(exitBase + code); }
+void terminatetetgen(tetgenmesh*, int code) {
+    _exit(exitBase + code);
+}
 
 namespace tetralux::mesher {
 namespace {
 
-/// Moves coordinates about the origin and to a size of about 1: TetGen's tolerances and predicates suffer far from it. The scale is
-/// a power of two and the centre has few digits, so that next to no input coordinate is rounded.
+/// Moves coordinates about the origin and to a size of about 1: TetGen's tolerances and predicates suffer far from it.
+/// The scale is a power of two and the centre has few digits, so that next to no input coordinate is rounded.
 struct Normalization {
     glm::dvec3 centre{0.0};
     double scale = 1.0;  // normalized = (p − centre)·scale
@@ -50,15 +53,20 @@ struct Normalization {
 };
 
 std::string reason(const ChildOutcome& outcome) {
-    if (outcome.end == ChildOutcome::End::Signal)
-        return fmt::format("TetGen crashed ({})", strsignal(outcome.code));
+    if (outcome.end == ChildOutcome::End::Signal) return fmt::format("TetGen crashed ({})", strsignal(outcome.code));
     switch (outcome.code - exitBase) {
-        case 1: return "TetGen ran out of memory; allow larger cells (--max-volume, --quality)";
-        case 3: return "TetGen found that the surface intersects itself";
-        case 4: return "TetGen met a feature too small for it; remove tiny edges and slits";
-        case 5: return "TetGen met two facets that lie too close to each other; move or merge them";
-        case 10: return "TetGen refused the points: they lie in a plane, or some coordinates are far off the others";
-        default: return fmt::format("TetGen gave up (code {})", outcome.code);
+        case 1:
+            return "TetGen ran out of memory; allow larger cells (--max-volume, --quality)";
+        case 3:
+            return "TetGen found that the surface intersects itself";
+        case 4:
+            return "TetGen met a feature too small for it; remove tiny edges and slits";
+        case 5:
+            return "TetGen met two facets that lie too close to each other; move or merge them";
+        case 10:
+            return "TetGen refused the points: they lie in a plane, or some coordinates are far off the others";
+        default:
+            return fmt::format("TetGen gave up (code {})", outcome.code);
     }
 }
 
@@ -93,11 +101,13 @@ RawTetrahedra run(const std::vector<glm::dvec3>& points, const std::vector<Trian
 
         std::string bytes;
         appendArray(bytes, std::vector<double>(out.pointlist, out.pointlist + 3 * std::max(out.numberofpoints, 0)));
-        appendArray(bytes, std::vector<int>(out.tetrahedronlist, out.tetrahedronlist + 4 * std::max(out.numberoftetrahedra, 0)));
+        appendArray(bytes, std::vector<int>(out.tetrahedronlist,
+                                            out.tetrahedronlist + 4 * std::max(out.numberoftetrahedra, 0)));
         std::vector<std::int32_t> regions;
         if (out.numberoftetrahedronattributes > 0)
             for (int i = 0; i < out.numberoftetrahedra; ++i)
-                regions.push_back(static_cast<int>(out.tetrahedronattributelist[i * out.numberoftetrahedronattributes]));
+                regions.push_back(
+                    static_cast<int>(out.tetrahedronattributelist[i * out.numberoftetrahedronattributes]));
         appendArray(bytes, regions);
         pipe.send(MessageKind::Result, bytes);
         _exit(0);  // without the destructors: the result is out
@@ -107,7 +117,8 @@ RawTetrahedra run(const std::vector<glm::dvec3>& points, const std::vector<Trian
     const ChildOutcome outcome = runInChild(limits, work);
     using End = ChildOutcome::End;
     if (outcome.end == End::Error) throw std::runtime_error(fmt::format("TetGen: {}", outcome.error));
-    if (outcome.end == End::TimedOut) throw std::runtime_error("TetGen did not end within the time limit (--time-limit)");
+    if (outcome.end == End::TimedOut)
+        throw std::runtime_error("TetGen did not end within the time limit (--time-limit)");
     if (outcome.end == End::Interrupted) throw std::runtime_error("TetGen was interrupted");
     if (outcome.end != End::Finished) throw std::runtime_error(reason(outcome));
 
@@ -119,7 +130,8 @@ RawTetrahedra run(const std::vector<glm::dvec3>& points, const std::vector<Trian
     result.points.resize(coordinates.size() / 3);
     for (std::size_t i = 0; i < result.points.size(); ++i)
         for (int k = 0; k < 3; ++k)  // the input's own points come back to the last bit
-            result.points[i][k] = i < points.size() ? points[i][k] : coordinates[3 * i + k] / normal.scale + normal.centre[k];
+            result.points[i][k] =
+                i < points.size() ? points[i][k] : coordinates[3 * i + k] / normal.scale + normal.centre[k];
     result.cells.resize(corners.size() / 4);
     for (std::size_t i = 0; i < result.cells.size(); ++i)
         for (std::size_t k = 0; k < 4; ++k) result.cells[i][k] = static_cast<std::uint32_t>(corners[4 * i + k]);
@@ -129,7 +141,8 @@ RawTetrahedra run(const std::vector<glm::dvec3>& points, const std::vector<Trian
 
 }  // namespace
 
-RawTetrahedra tetrahedralizeSurface(const TriangleSurface& surface, const TetGenOptions& options, const Deadline& deadline) {
+RawTetrahedra tetrahedralizeSurface(const TriangleSurface& surface, const TetGenOptions& options,
+                                    const Deadline& deadline) {
     // p: a surface; A: number its regions; q, a: bounds; Y: keep the surface; Q: print nothing
     std::string switches = "pA";
     if (options.quality > 0.0) switches += fmt::format("q{:.6f}", options.quality);

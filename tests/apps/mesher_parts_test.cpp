@@ -55,11 +55,14 @@ double volumeOf(const mesh::TetMesh& mesh) {
 
 bool allPositive(const mesh::TetMesh& mesh) {
     return std::all_of(mesh.cells.begin(), mesh.cells.end(), [&](const auto& c) {
-        return mesh::sixVolumes(mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]], mesh.positions[c[3]]) > 0.0;
+        return mesh::sixVolumes(mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]],
+                                mesh.positions[c[3]]) > 0.0;
     });
 }
 
-TEST(SurfaceDefects, ACubeHasNone) { EXPECT_TRUE(checkTopology(cube()).empty()); }
+TEST(SurfaceDefects, ACubeHasNone) {
+    EXPECT_TRUE(checkTopology(cube()).empty());
+}
 
 TEST(SurfaceDefects, EachIsCountedByItsName) {
     TriangleSurface open = cube();
@@ -115,7 +118,8 @@ TEST(SurfaceDefects, CoincidentPointsBecomeOneAndKeepTheFirstValue) {
         s.triangles.push_back({n - 3, n - 2, n - 1});
     }
     s.fields = {{"v", mesh::Association::Point, 2, {}}};
-    for (std::size_t i = 0; i < s.points.size(); ++i) s.fields[0].values.insert(s.fields[0].values.end(), {s.points[i].x, double(i)});
+    for (std::size_t i = 0; i < s.points.size(); ++i)
+        s.fields[0].values.insert(s.fields[0].values.end(), {s.points[i].x, double(i)});
     EXPECT_EQ(mergeCoincidentPoints(s), 36u - 8u);
     EXPECT_EQ(s.points.size(), 8u);
     EXPECT_TRUE(checkTopology(s).empty());
@@ -157,7 +161,8 @@ TEST(SurfaceLocator, AgreesWithTryingEveryTriangle) {
         for (const Triangle& u : s.triangles)
             for (int a = 0; a <= 8; ++a)
                 for (int b = 0; a + b <= 8; ++b)
-                    least = std::min(least, glm::length(p - (s.points[u[0]] * (a / 8.0) + s.points[u[1]] * (b / 8.0) + s.points[u[2]] * ((8 - a - b) / 8.0))));
+                    least = std::min(least, glm::length(p - (s.points[u[0]] * (a / 8.0) + s.points[u[1]] * (b / 8.0) +
+                                                             s.points[u[2]] * ((8 - a - b) / 8.0))));
         EXPECT_LE(found.distance, least + 1e-12);
         EXPECT_GE(found.distance, least - 0.03);
     }
@@ -168,7 +173,8 @@ TEST(CarryField, LinearFieldsAreExactInside) {
     mesh::TetMesh mesh = grid(9, f);
     TriangleSurface given = boundaryOf(mesh);
     given.fields = mesh.fields;
-    std::vector<std::uint32_t> source(mesh.positions.size(), static_cast<std::uint32_t>(mesh.positions.size()));  // all new
+    std::vector<std::uint32_t> source(mesh.positions.size(),
+                                      static_cast<std::uint32_t>(mesh.positions.size()));  // all new
     for (const Triangle& t : given.triangles)
         for (const auto i : t) source[i] = i;
     const auto fields = carryFields(given, mesh, source, true);
@@ -197,7 +203,8 @@ TEST(GeneratedField, NamesAndFormulas) {
         const double toFace = std::min({p.x, 1 - p.x, p.y, 1 - p.y, p.z, 1 - p.z});
         EXPECT_NEAR(mesh.fields[2].values[i], toFace, 1e-12);
     }
-    for (const char* bad : {"x +", "nonsense", "f=sin(", "", "iHat", "x\ny"}) EXPECT_THROW(addGeneratedField(mesh, bad), std::runtime_error) << bad;
+    for (const char* bad : {"x +", "nonsense", "f=sin(", "", "iHat", "x\ny"})
+        EXPECT_THROW(addGeneratedField(mesh, bad), std::runtime_error) << bad;
 }
 
 /// The value of a coarse mesh at p by trying every cell.
@@ -206,8 +213,9 @@ double valueAt(const mesh::TetMesh& mesh, const glm::dvec3& p) {
     for (const auto& c : mesh.cells) {
         const auto& x = mesh.positions;
         const double six = mesh::sixVolumes(x[c[0]], x[c[1]], x[c[2]], x[c[3]]);
-        const std::array<double, 4> w{mesh::sixVolumes(p, x[c[1]], x[c[2]], x[c[3]]) / six, mesh::sixVolumes(x[c[0]], p, x[c[2]], x[c[3]]) / six,
-                                      mesh::sixVolumes(x[c[0]], x[c[1]], p, x[c[3]]) / six, mesh::sixVolumes(x[c[0]], x[c[1]], x[c[2]], p) / six};
+        const std::array<double, 4> w{
+            mesh::sixVolumes(p, x[c[1]], x[c[2]], x[c[3]]) / six, mesh::sixVolumes(x[c[0]], p, x[c[2]], x[c[3]]) / six,
+            mesh::sixVolumes(x[c[0]], x[c[1]], p, x[c[3]]) / six, mesh::sixVolumes(x[c[0]], x[c[1]], x[c[2]], p) / six};
         const double least = *std::min_element(w.begin(), w.end());
         if (least <= best) continue;
         best = least;
@@ -231,7 +239,9 @@ TEST(Simplify, ALinearFieldNeedsFewCellsAndKeepsTheBox) {
 }
 
 TEST(Simplify, TheReportedErrorIsTheError) {
-    const auto f = [](const glm::dvec3& p) { return std::exp(-8.0 * glm::dot(p - glm::dvec3(0.4), p - glm::dvec3(0.4))); };
+    const auto f = [](const glm::dvec3& p) {
+        return std::exp(-8.0 * glm::dot(p - glm::dvec3(0.4), p - glm::dvec3(0.4)));
+    };
     const mesh::TetMesh fine = grid(13, f);
     const auto [low, high] = std::minmax_element(fine.fields[0].values.begin(), fine.fields[0].values.end());
     for (const double bound : {0.02, 0.1}) {
@@ -241,7 +251,8 @@ TEST(Simplify, TheReportedErrorIsTheError) {
         const SimplifyReport report = simplify(coarse, options);
         double worst = 0.0;
         for (std::size_t i = 0; i < fine.positions.size(); ++i)
-            worst = std::max(worst, std::abs(valueAt(coarse, fine.positions[i]) - fine.fields[0].values[i]) / (*high - *low));
+            worst = std::max(worst,
+                             std::abs(valueAt(coarse, fine.positions[i]) - fine.fields[0].values[i]) / (*high - *low));
         EXPECT_LE(report.maxError, bound);
         EXPECT_NEAR(worst, report.maxError, 1e-9);
         EXPECT_LT(coarse.cells.size(), fine.cells.size() / 2);
@@ -270,7 +281,8 @@ TEST(Simplify, CellValuesAreRefused) {
 class PointsText : public testing::Test {
 protected:
     PolygonSoup read(const std::string& name, const std::string& text) {
-        path_ = (std::filesystem::temp_directory_path() / fmt::format("tetralux-points-{}-{}", ::getpid(), name)).string();
+        path_ =
+            (std::filesystem::temp_directory_path() / fmt::format("tetralux-points-{}-{}", ::getpid(), name)).string();
         std::ofstream(path_) << text;
         return readPointsText(path_);
     }
@@ -317,14 +329,17 @@ TEST(ChildProcess, EveryEndIsAnOutcome) {
     const auto endOf = [](const std::function<void(const MessagePipe&)>& work) { return runInChild({}, work); };
     std::vector<std::string> notes;
     const std::vector<double> sent(100000, 0.25);
-    const ChildOutcome good = runInChild({}, [&](const MessagePipe& pipe) {
-        pipe.send(MessageKind::Note, "hello");
-        std::string bytes;
-        appendArray(bytes, sent);
-        pipe.send(MessageKind::Result, bytes);
-    }, [&](MessageKind kind, std::string_view text) {
-        if (kind == MessageKind::Note) notes.emplace_back(text);
-    });
+    const ChildOutcome good = runInChild(
+        {},
+        [&](const MessagePipe& pipe) {
+            pipe.send(MessageKind::Note, "hello");
+            std::string bytes;
+            appendArray(bytes, sent);
+            pipe.send(MessageKind::Result, bytes);
+        },
+        [&](MessageKind kind, std::string_view text) {
+            if (kind == MessageKind::Note) notes.emplace_back(text);
+        });
     EXPECT_EQ(good.end, End::Finished);
     EXPECT_EQ(notes, std::vector<std::string>{"hello"});
     std::string_view bytes = good.result;
@@ -337,13 +352,21 @@ TEST(ChildProcess, EveryEndIsAnOutcome) {
     const ChildOutcome crashed = endOf([](const MessagePipe&) { ::kill(::getpid(), SIGKILL); });
     EXPECT_EQ(crashed.end, End::Signal);
     EXPECT_EQ(crashed.code, SIGKILL);
-    const ChildOutcome left = endOf([](const MessagePipe&) { std::fprintf(stderr, "bye\n"); ::_exit(7); });
+    const ChildOutcome left = endOf([](const MessagePipe&) {
+        std::fprintf(stderr, "bye\n");
+        ::_exit(7);
+    });
     EXPECT_EQ(left.end, End::Exit);
     EXPECT_EQ(left.code, 7);
     EXPECT_EQ(left.output, "bye\n");
     ChildLimits limits;
     limits.deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
-    EXPECT_EQ(runInChild(limits, [](const MessagePipe&) { for (;;) ::pause(); }).end, End::TimedOut);
+    EXPECT_EQ(runInChild(limits,
+                         [](const MessagePipe&) {
+                             for (;;) ::pause();
+                         })
+                  .end,
+              End::TimedOut);
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ inline TriangleSurface sphere(const glm::dvec3& centre, double radius, int level
     for (int level = 0; level < levels; ++level) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
         const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-            const auto [at, isNew] = middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(s.points.size()));
+            const auto [at, isNew] =
+                middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(s.points.size()));
             if (isNew) s.points.push_back(glm::normalize(s.points[a] + s.points[b]));
             return at->second;
         };
@@ -87,8 +88,9 @@ inline std::string objText(const TriangleSurface& s) {
 
 /// ASCII PLY of doubles with one vertex property for each of `surface.fields`.
 inline std::string plyText(const TriangleSurface& s) {
-    std::string text = fmt::format("ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
-                                   s.points.size());
+    std::string text = fmt::format(
+        "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
+        s.points.size());
     for (const auto& field : s.fields) text += fmt::format("property double {}\n", field.name);
     text += fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", s.triangles.size());
     for (std::size_t i = 0; i < s.points.size(); ++i) {

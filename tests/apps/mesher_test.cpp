@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// The program tetralux-mesher as `tetralux mesh` starts it: surfaces and clouds of known volume, every defect by its name, and files
-/// that are no such thing.
+/// The program tetralux-mesher as `tetralux mesh` starts it: surfaces and clouds of known volume, every defect by its
+/// name, and files that are no such thing.
 #include <gtest/gtest.h>
 
 #include <signal.h>
@@ -33,13 +33,17 @@ namespace fs = std::filesystem;
 class Mesher : public testing::Test {
 protected:
     void SetUp() override {
-        folder_ = fs::temp_directory_path() / fmt::format("tetralux-mesher-{}-{}", testing::UnitTest::GetInstance()->current_test_info()->name(), ::getpid());
+        folder_ = fs::temp_directory_path() / fmt::format("tetralux-mesher-{}-{}",
+                                                          testing::UnitTest::GetInstance()->current_test_info()->name(),
+                                                          ::getpid());
         fs::remove_all(folder_);
         fs::create_directories(folder_);
     }
     void TearDown() override { fs::remove_all(folder_); }
 
-    void write(const std::string& name, const std::string& bytes) const { std::ofstream(folder_ / name, std::ios::binary) << bytes; }
+    void write(const std::string& name, const std::string& bytes) const {
+        std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    }
 
     Outcome run(std::vector<std::string> arguments) const {
         arguments.insert(arguments.begin(), TETRALUX_MESHER_PROGRAM);
@@ -58,7 +62,9 @@ protected:
         mesh::TetMesh mesh = mesh::readMesh((folder_ / "out.vtu").string()).mesh;
         EXPECT_EQ(mesh.cells.size(), report()["cells"]);
         for (const auto& c : mesh.cells)
-            EXPECT_GT(mesh::sixVolumes(mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]], mesh.positions[c[3]]), 0.0);
+            EXPECT_GT(mesh::sixVolumes(mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]],
+                                       mesh.positions[c[3]]),
+                      0.0);
         return mesh;
     }
 
@@ -72,11 +78,14 @@ protected:
         EXPECT_EQ(outcome.status, 2) << outcome.err;
         EXPECT_EQ(outcome.err.rfind("tetralux: ", 0), 0u) << outcome.err;
         EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-        for (const std::string& part : parts) EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " in: " << outcome.err;
+        for (const std::string& part : parts)
+            EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " in: " << outcome.err;
         EXPECT_EQ(count(), before);
     }
 
-    std::size_t count() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator())); }
+    std::size_t count() const {
+        return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    }
 
     fs::path folder_;
 };
@@ -102,7 +111,8 @@ TEST_F(Mesher, FillsASphereInEveryFormat) {
     write("ball.stl", stlBytes(ball));
     for (const char* name : {"ball.off", "ball.obj", "ball.ply", "ball.stl"}) {
         const mesh::TetMesh mesh = made({name});
-        const double tolerance = std::string(name) == "ball.stl" ? 1e-5 : 1e-9;  // STL holds floats, at a distance from the origin
+        const double tolerance =
+            std::string(name) == "ball.stl" ? 1e-5 : 1e-9;  // STL holds floats, at a distance from the origin
         EXPECT_NEAR(volumeOf(mesh) / mesher::enclosedVolume(ball), 1.0, tolerance) << name;
         const auto& distance = fieldOf(mesh, "distance").values;
         EXPECT_NEAR(*std::max_element(distance.begin(), distance.end()), 0.5, 0.15);
@@ -117,7 +127,9 @@ TEST_F(Mesher, BoundsOfVolumeAndQualityHold) {
     const mesh::TetMesh mesh = made({"cube.off", "--max-volume", "0.001", "--quality", "1.5"});
     EXPECT_GT(mesh.cells.size(), 1000u);
     for (const auto& c : mesh.cells)
-        EXPECT_LE(mesh::sixVolumes(mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]], mesh.positions[c[3]]), 0.006 * (1 + 1e-9));
+        EXPECT_LE(
+            mesh::sixVolumes(mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]], mesh.positions[c[3]]),
+            0.006 * (1 + 1e-9));
     // Right angles only: TetGen can keep the bound everywhere, but for its last flips (measured 1.58)
     EXPECT_LE(mesher::worstRadiusEdgeRatio(mesh), 1.1 * 1.5);
     EXPECT_NEAR(volumeOf(mesh), 1.0, 1e-9);
@@ -218,7 +230,8 @@ TEST_F(Mesher, RepairMendsAndSaysSo) {
     write("open.ply", plyText(open));
     const mesh::TetMesh mesh = made({"open.ply", "--repair"});
     EXPECT_NEAR(volumeOf(mesh), 1.0, 1e-12);
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) EXPECT_NEAR(fieldOf(mesh, "warmth").values[i], mesh.positions[i].x, 1e-9);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        EXPECT_NEAR(fieldOf(mesh, "warmth").values[i], mesh.positions[i].x, 1e-9);
     const std::string repairs = report()["repairs"].dump(), defects = report()["defects"].dump();
     EXPECT_NE(repairs.find("1 hole filled with 1 triangles"), std::string::npos) << repairs;
     EXPECT_NE(repairs.find("1 collapsed or double triangle dropped"), std::string::npos) << repairs;
@@ -257,9 +270,12 @@ TEST_F(Mesher, CloudsBecomeDelaunayByEitherMethod) {
             EXPECT_DOUBLE_EQ(fieldOf(mesh, "s").values[i], p.x + 2 * p.y + 3 * p.z);
         }
         for (const auto& c : mesh.cells) {  // no point lies inside of any circumsphere
-            const glm::dvec3 a = mesh.positions[c[0]], u = mesh.positions[c[1]] - a, v = mesh.positions[c[2]] - a, w = mesh.positions[c[3]] - a;
+            const glm::dvec3 a = mesh.positions[c[0]], u = mesh.positions[c[1]] - a, v = mesh.positions[c[2]] - a,
+                             w = mesh.positions[c[3]] - a;
             const double six = glm::dot(glm::cross(u, v), w);
-            const glm::dvec3 centre = a + (glm::dot(u, u) * glm::cross(v, w) + glm::dot(v, v) * glm::cross(w, u) + glm::dot(w, w) * glm::cross(u, v)) / (2 * six);
+            const glm::dvec3 centre = a + (glm::dot(u, u) * glm::cross(v, w) + glm::dot(v, v) * glm::cross(w, u) +
+                                           glm::dot(w, w) * glm::cross(u, v)) /
+                                              (2 * six);
             const double radius = glm::length(centre - a);
             for (const auto& p : mesh.positions) EXPECT_GE(glm::length(p - centre), radius * (1 - 1e-7));
         }
@@ -310,7 +326,8 @@ TEST_F(Mesher, AWrongCommandIsOneLine) {
 TEST_F(Mesher, TheTimeLimitEndsItAndLeavesNothing) {
     write("ball.off", offText(sphere(glm::dvec3(0.0), 1.0, 4)));
     const auto start = std::chrono::steady_clock::now();
-    refused({"ball.off", "--max-volume", "1e-8", "--time-limit", "1"}, {"ball.off", "time limit of 1 s", "--time-limit"});
+    refused({"ball.off", "--max-volume", "1e-8", "--time-limit", "1"},
+            {"ball.off", "time limit of 1 s", "--time-limit"});
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 
@@ -320,11 +337,14 @@ TEST_F(Mesher, AnInterruptKillsTheWorkAndLeavesNothing) {
     const pid_t child = ::fork();
     if (child == 0) {
         if (::chdir(folder_.c_str()) != 0) ::_exit(1);
-        if (std::freopen("/dev/null", "w", stderr) == nullptr || std::freopen("/dev/null", "w", stdout) == nullptr) ::_exit(1);
-        ::execl(TETRALUX_MESHER_PROGRAM, "tetralux-mesher", "ball.off", "-o", "out.vtu", "--max-volume", "1e-8", nullptr);
+        if (std::freopen("/dev/null", "w", stderr) == nullptr || std::freopen("/dev/null", "w", stdout) == nullptr)
+            ::_exit(1);
+        ::execl(TETRALUX_MESHER_PROGRAM, "tetralux-mesher", "ball.off", "-o", "out.vtu", "--max-volume", "1e-8",
+                nullptr);
         ::_exit(1);
     }
-    for (int i = 0; i < 200 && count() == before; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));  // its work folder
+    for (int i = 0; i < 200 && count() == before; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));  // its work folder
     EXPECT_GT(count(), before);
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     ::kill(child, SIGINT);
@@ -335,12 +355,16 @@ TEST_F(Mesher, AnInterruptKillsTheWorkAndLeavesNothing) {
     EXPECT_EQ(count(), before);
 }
 
-/// No broken copy crashes it, hangs it or leaves a file: 7 each of truncated, bit-flipped and random bytes for every format, seeds 0 to 6.
+/// No broken copy crashes it, hangs it or leaves a file: 7 each of truncated, bit-flipped and random bytes for every
+/// format, seeds 0 to 6.
 TEST_F(Mesher, BrokenFilesAreOneLineOrAMesh) {
     const TriangleSurface ball = sphere(glm::dvec3(0.0), 1.0, 1);
     std::vector<glm::dvec3> points;
-    const std::vector<std::pair<std::string, std::string>> files{{"f.off", offText(ball)}, {"f.obj", objText(ball)}, {"f.ply", plyText(ball)},
-                                                                 {"f.stl", stlBytes(ball)}, {"f.csv", cloudText(20, points)}};
+    const std::vector<std::pair<std::string, std::string>> files{{"f.off", offText(ball)},
+                                                                 {"f.obj", objText(ball)},
+                                                                 {"f.ply", plyText(ball)},
+                                                                 {"f.stl", stlBytes(ball)},
+                                                                 {"f.csv", cloudText(20, points)}};
     for (const auto& [name, whole] : files) {
         for (unsigned seed = 0; seed < 21; ++seed) {
             std::mt19937 random(seed / 3);
@@ -348,14 +372,17 @@ TEST_F(Mesher, BrokenFilesAreOneLineOrAMesh) {
             if (seed % 3 == 0) bytes.resize(random() % whole.size());
             if (seed % 3 == 1)
                 for (int i = 0; i < 6; ++i) {
-                    const std::size_t where = random() % (i % 2 == 0 ? whole.size() : std::min<std::size_t>(whole.size(), 200));
+                    const std::size_t where =
+                        random() % (i % 2 == 0 ? whole.size() : std::min<std::size_t>(whole.size(), 200));
                     bytes[where] = static_cast<char>(bytes[where] ^ (1 << random() % 8));
                 }
             if (seed % 3 == 2)
                 for (char& c : bytes) c = static_cast<char>(random());
             write(name, bytes);
-            const Outcome outcome = run({name, "-o", "out.vtu", "--quiet", "--time-limit", "20", seed % 2 == 0 ? "--repair" : "--quiet"});
-            EXPECT_TRUE(outcome.status == 0 || outcome.status == 2) << name << " seed " << seed << ": " << outcome.status;
+            const Outcome outcome =
+                run({name, "-o", "out.vtu", "--quiet", "--time-limit", "20", seed % 2 == 0 ? "--repair" : "--quiet"});
+            EXPECT_TRUE(outcome.status == 0 || outcome.status == 2)
+                << name << " seed " << seed << ": " << outcome.status;
             if (outcome.status == 2) {
                 EXPECT_EQ(outcome.err.rfind("tetralux: ", 0), 0u) << outcome.err;
                 EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;

@@ -143,7 +143,7 @@ void CpuEngine::prepare() {
     const bool everyScalarCounts = frame_.kind == TileKind::Mip || frame_.kind == TileKind::Average;
     if (skips_.invisibleCells && !everyScalarCounts) findVisibleCells();
     prepareMilliseconds_["cells"] = millisecondsSince(start);
-    if (!frame_.ordered) return;
+    if (!frame_.ordered || !skips_.sort) return;
     const auto orderStart = Clock::now();
     orderKeys_.emplace(mesh_);
     prepareMilliseconds_["order"] = millisecondsSince(orderStart);
@@ -203,7 +203,7 @@ void CpuEngine::makeLists(const Camera& camera, FrameReport& report) {
     tilesX_ = (frame.width + cpuTileSize - 1) / cpuTileSize;
     tilesY_ = (frame.height + cpuTileSize - 1) / cpuTileSize;
     order_ = {};
-    if (frame_.ordered) {
+    if (orderKeys_) {
         order_ = orderKeys_->orderOf(frame);
         finish("sort");
     }
@@ -212,7 +212,7 @@ void CpuEngine::makeLists(const Camera& camera, FrameReport& report) {
     bins_.fill(survivors_, chunks_, counts.nearest, counts.farthest);
     sortTilesByWork();
     finish("bin");
-    if (frame_.ordered) {
+    if (orderKeys_) {
         bins_.sort();
         report.cellsSorted = cellsDrawn_;
         finish("sort");

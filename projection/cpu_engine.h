@@ -22,6 +22,7 @@ struct CpuSkips {
     bool earlyTermination = true;   ///< opaque pixels and tiles are left alone
     bool orderFree = true;          ///< no sort where order does not matter
     bool keepFrame = true;          ///< lists are kept while the camera stays
+    bool sort = true;               ///< off: cells in the mesh's order, which must show as doubtful pixels
 };
 std::unique_ptr<Engine> makeCpuEngineWith(const Scene& scene, const CpuSkips& skips);
 

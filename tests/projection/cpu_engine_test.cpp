@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Pictures of the tile engine against closed forms, against the reference, and against itself with each shortcut switched off.
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <mesh/procedural_field.h>
+#include <projection/cell_setup.h>
+#include <projection/cpu_engine.h>
+#include <projection/exact_repair.h>
+#include <projection/reference_ray_caster.h>
+#include <tests/support/analytic_scenes.h>
+
+namespace tetralux::projection {
+namespace {
+
+using namespace tetralux::test;
+
+Image cpuImage(const Scene& scene, const Camera& camera, FrameReport& report, const CpuSkips& skips = {}) {
+    return makeCpuEngineWith(scene, skips)->render(camera, report);
+}
+
+Image cpuImage(const Scene& scene, const Camera& camera, const CpuSkips& skips = {}) {
+    FrameReport report;
+    return cpuImage(scene, camera, report, skips);
+}
+
+/// Two numbers for every comparison: rms and largest difference over all channels.
+struct Threshold {
+    double rmse, max;
+};
+
+// Float, and the shift of samples by 2^-14 pixel: rmse of 1e-6 to 6e-6, max below 4e-4 were seen.
+constexpr Threshold smoothThreshold{2e-5, 1e-3};
+// Depth of thousands over the mesh: the sample shift moves a steep surface by 1e-4 of a pixel's width.
+constexpr Threshold opaqueThreshold{1e-4, 5e-3};
+// A ray beside an edge may first meet the other cell there, of another colour.
+constexpr Threshold firstHitThreshold{2e-3, 0.2};
+// An isosurface's rim moves with the sample shift: single pixels change by its whole opacity.
+constexpr Threshold peaksThreshold{2e-3, 1.0};
+
+void expectLikeReference(const Scene& scene, const Camera& camera, Threshold threshold) {
+    RayCastCounts counts;
+    const Image reference = ReferenceRayCaster(scene).render(camera, counts);
+    double strongest = 0;
+    for (const glm::vec4& pixel : reference.pixels) strongest = std::max(strongest, static_cast<double>(pixel.w));
+    ASSERT_GT(strongest, 0.05) << "the picture is empty: nothing is tested";
+    FrameReport report;
+    const ImageDifference difference = compareImages(cpuImage(scene, camera, report), reference);
+    EXPECT_LE(difference.rmse, threshold.rmse);
+    EXPECT_LE(difference.max, threshold.max);
+    EXPECT_GT(report.fragments, 0u);
+    testing::Test::RecordProperty("rmse", std::to_string(difference.rmse));
+    testing::Test::RecordProperty("max", std::to_string(difference.max));
+}
+
+mesh::ScalarMesh fieldMesh(const std::string& name, int n) {
+    const auto field = mesh::proceduralField(name, n);
+    mesh::TetMesh sampled = mesh::sampleOnGrid(field, n);
+    mesh::ScalarMesh m;
+    m.positions = std::move(sampled.positions);
+    m.cells = std::move(sampled.cells);
+    m.scalars = std::move(sampled.fields.front().values);
+    return finished(std::move(m));
+}
+
+Camera wholeView(const mesh::ScalarMesh& m, int width = 52, int height = 45) {
+    Camera camera;
+    camera.width = width;
+    camera.height = height;
+    camera.target = m.bounds.centre();
+    camera.eye = threeQuarterEye(m.bounds, camera);
+    return camera;
+}
+
+preint::TransferFunction functionOf(const std::string& name, double low, double high, double extent) {
+    auto at = [&](double t) { return low + t * (high - low); };
+    if (name == "peaks") {
+        auto function = peaksFunction(low, high);
+        function.extinction.front().extinction /= extent;
+        return function;
+    }
+    auto function = smoothFunction(low, high, 25.0 / extent);
+    if (name == "opaque") function.extinction = {{at(0.0), 0.0}, {at(0.2), 0.0}, {at(0.3), 400.0 / extent}, {at(1.0), 3000.0 / extent}};
+    if (name == "constant") function.color = {{at(0.0), {0.9, 0.5, 0.2}}};
+    if (name == "jumps") {
+        function.extinction = {{at(0.0), 0.5 / extent}, {at(0.4), 1.0 / extent}, {at(0.4), 12.0 / extent}, {at(0.7), 8.0 / extent}, {at(0.7), 0.0}};
+        function.color = {{at(0.2), {1, 0, 0}}, {at(0.5), {0, 1, 0}}, {at(0.5), {0, 0, 1}}, {at(1.0), {1, 1, 0}}};
+    }
+    return function;
+}
+
+Scene fieldScene(const std::string& field, const std::string& function, Mode mode, int n = 9) {
+    mesh::ScalarMesh m = fieldMesh(field, n);
+    const double extent = mode == Mode::ScaleInvariant ? m.scalarMax - m.scalarMin : m.bounds.diagonal() / 1.7;
+    const auto transfer = functionOf(function, m.scalarMin, m.scalarMax, extent);
+    return sceneOf(std::move(m), transfer, mode);
+}
+
+class CpuModes : public testing::TestWithParam<std::tuple<const char*, Mode>> {};
+
+TEST_P(CpuModes, AreLikeTheReference) {
+    const auto [field, mode] = GetParam();
+    const Scene scene = fieldScene(field, "smooth", mode);
+    expectLikeReference(scene, wholeView(*scene.mesh), mode == Mode::FirstHit ? firstHitThreshold : smoothThreshold);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fields, CpuModes,
+                         testing::Combine(testing::Values("bucky", "coulomb", "marschner-lobb", "hydrogen"),
+                                          testing::Values(Mode::Standard, Mode::ScaleInvariant, Mode::Mip, Mode::Average, Mode::FirstHit)));
+
+class CpuFunctions : public testing::TestWithParam<std::tuple<const char*, Mode>> {};
+
+TEST_P(CpuFunctions, AreLikeTheReference) {
+    const auto [function, mode] = GetParam();
+    const Scene scene = fieldScene("bucky", function, mode, 12);
+    const std::string name = function;
+    const bool discontinuous = name == "peaks" || name == "jumps";
+    expectLikeReference(scene, wholeView(*scene.mesh),
+                        discontinuous ? peaksThreshold : name == "opaque" ? opaqueThreshold : smoothThreshold);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, CpuFunctions,
+                         testing::Combine(testing::Values("peaks", "opaque", "constant", "jumps"),
+                                          testing::Values(Mode::Standard, Mode::ScaleInvariant)));
+
+double ramp(const glm::dvec3& p) { return 0.5 * p.x + 0.3 * p.y + 0.2 * p.z; }
+
+TEST(CpuEngine, ConstantExtinctionIsBeerLambert) {
+    const double extinction = 1.5;
+    Scene scene = sceneOf(boxMesh(5, ramp), constantFunction(extinction));
+    const Camera camera = cameraAt({2.1, 1.7, 2.6});
+    const CameraFrame frame = cameraFrame(camera);
+    for (bool orderFree : {true, false}) {
+        CpuSkips skips;
+        skips.orderFree = orderFree;
+        const Image image = cpuImage(scene, camera, skips);
+        for (int y = 0; y < camera.height; ++y)
+            for (int x = 0; x < camera.width; ++x) {
+                const auto [in, out] = pathInBox(pixelRay(frame, x + sampleShift.x, y + sampleShift.y), glm::dvec3(0), glm::dvec3(1));
+                const double opacity = 1 - std::exp(-extinction * std::max(0.0, out - in));
+                ASSERT_NEAR(image.at(x, y).w, opacity, 2e-6) << x << ", " << y;
+                ASSERT_NEAR(image.at(x, y).x, 0.8 * opacity, 2e-6);
+            }
+    }
+}
+
+TEST(CpuEngine, OneTetrahedronOfOnePixelToWholeImage) {
+    Scene scene = sceneOf(unitTetrahedron({0, 1, 0.3, 0.6}), smoothFunction(0, 1, 8));
+    for (double distance : {0.4, 2.0, 20.0, 60.0})
+        expectLikeReference(scene, cameraAt(glm::dvec3(0.25) + distance * glm::dvec3(0.5, 0.6, 0.62), glm::dvec3(0.25), 49, 41),
+                            smoothThreshold);
+}
+
+TEST(CpuEngine, EyeInsideTheMesh) {
+    for (Mode mode : {Mode::Standard, Mode::ScaleInvariant, Mode::Mip, Mode::Average}) {
+        Scene scene = fieldScene("bucky", "smooth", mode);
+        Camera camera = cameraAt({0.41, 0.52, 0.47}, {0.9, 0.4, 0.3});
+        camera.fovDegrees = 80;
+        expectLikeReference(scene, camera, smoothThreshold);
+    }
+}
+
+TEST(CpuEngine, ViewsAlongAxesOfAGrid) {
+    const Scene scene = fieldScene("bucky", "smooth", Mode::Standard, 8);
+    for (const auto& [width, height] : {std::pair{33, 41}, std::pair{40, 32}, std::pair{1, 1}, std::pair{65, 3}})
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::dvec3 eye(0.5);
+            eye[axis] = 3.5;
+            Camera camera = cameraAt(eye, glm::dvec3(0.5), width, height);
+            if (axis == 1) camera.up = {0, 0, 1};
+            expectLikeReference(scene, camera, smoothThreshold);
+        }
+}
+
+TEST(CpuEngine, OrthographicViews) {
+    for (Mode mode : {Mode::Standard, Mode::ScaleInvariant, Mode::Average}) {
+        const Scene scene = fieldScene("hydrogen", "smooth", mode);
+        Camera camera = wholeView(*scene.mesh);
+        camera.orthographicHeight = 1.2 * scene.mesh->bounds.diagonal();
+        expectLikeReference(scene, camera, smoothThreshold);
+        camera.eye = scene.mesh->bounds.centre() + 0.03 * (camera.eye - camera.target);  // what lies behind the eye's plane is not seen
+        expectLikeReference(scene, camera, smoothThreshold);
+    }
+}
+
+TEST(CpuEngine, CellData) {
+    mesh::ScalarMesh m = jitteredBoxMesh(6, 0.2, 7, ramp);
+    std::vector<double> values;
+    for (mesh::CellIndex c = 0; c < m.cells.size(); ++c) values.push_back(m.scalarAt(c, 0));
+    m.scalars = values;
+    m.association = mesh::Association::Cell;
+    m = finished(std::move(m));
+    for (Mode mode : {Mode::Standard, Mode::Mip, Mode::FirstHit})
+        expectLikeReference(sceneOf(m, smoothFunction(m.scalarMin, m.scalarMax, 6), mode), cameraAt({2.0, 1.8, 2.4}), {1e-4, 2e-2});
+}
+
+TEST(CpuEngine, SilhouettesAndLight) {
+    for (Mode mode : {Mode::Standard, Mode::ScaleInvariant, Mode::FirstHit})
+        for (int what = 1; what < 4; ++what) {
+            Scene scene = fieldScene("bucky", what == 3 ? "peaks" : "smooth", mode);
+            scene.settings.shading.silhouette = (what & 1) != 0;
+            if (what & 2) scene.settings.shading.lights = {{glm::normalize(glm::dvec3(0.4, 0.8, 0.6))}, {glm::normalize(glm::dvec3(-1, 0.2, 0.1))}};
+            // at edges of cells normals jump, and with them the light, so a shifted sample may see the other cell
+            expectLikeReference(scene, wholeView(*scene.mesh), {2e-3, 0.6});
+        }
+}
+
+TEST(CpuEngine, RandomMeshesNeedNoCertificate) {
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+        const auto holed = carved(jitteredBoxMesh(7, 0.25, seed, ramp),
+                                  [](const glm::dvec3& p) { return std::abs(p.x - 0.5) > 0.2 || std::abs(p.y - 0.4) > 0.25; });
+        const Scene scene = sceneOf(holed, smoothFunction(0, 1, 8));
+        const Camera camera = cameraAt({2.3, 1.2 - 0.5 * seed, 1.9});
+        RayCastCounts counts;
+        const Image reference = ReferenceRayCaster(scene).render(camera, counts);
+        FrameReport report;
+        const Image image = withExactRepair(makeCpuEngineWith(scene, {}), scene)->render(camera, report);
+        EXPECT_LE(compareImages(image, reference).rmse, smoothThreshold.rmse) << report.orderMethod;
+    }
+}
+
+TEST(CpuEngine, UnitsDoNotMatter) {
+    const Scene plain = sceneOf(jitteredBoxMesh(6, 0.2, 3, ramp), smoothFunction(0, 1, 6));
+    const Camera camera = cameraAt({2.1, 1.5, 2.2});
+    const Image expected = cpuImage(plain, camera);
+    for (double scale : {1e-12, 1e12})
+        for (double shift : {0.0, 1e6}) {
+            mesh::ScalarMesh m = *plain.mesh;
+            auto moved = [&](const glm::dvec3& p) { return scale * (p + shift); };
+            for (auto& p : m.positions) p = moved(p);
+            for (auto& s : m.scalars) s = 1e9 + 1e-3 * s;
+            m = finished(std::move(m));
+            auto function = smoothFunction(1e9, 1e9 + 1e-3, 6 / scale);
+            Camera there = camera;
+            there.eye = moved(camera.eye);
+            there.target = moved(camera.target);
+            // scalars of 1e9 keep 1e-4 of a range of 1e-3; positions of 1e6 keep 1e-10
+            EXPECT_LE(compareImages(cpuImage(sceneOf(std::move(m), function), there), expected).rmse, 1e-4) << scale << " " << shift;
+        }
+}
+
+TEST(CpuEngine, DepthsFromNothingToEverything) {
+    for (double extinction : {1e-9, 1e-3, 1.0, 1e3, 1e6, 1e12}) {
+        Scene scene = sceneOf(boxMesh(4, ramp), smoothFunction(0, 1, extinction));
+        const Camera camera = cameraAt({2.1, 1.7, 2.6});
+        RayCastCounts counts;
+        const ImageDifference difference = compareImages(cpuImage(scene, camera), ReferenceRayCaster(scene).render(camera, counts));
+        EXPECT_LE(difference.rmse, 5e-5) << extinction;
+        EXPECT_LE(difference.max, std::min(2e-3, extinction)) << extinction;
+    }
+}
+
+TEST(CpuEngine, SkippingInvisibleCellsChangesNothing) {
+    Scene scene = fieldScene("bucky", "smooth", Mode::Standard, 12);
+    const double low = scene.mesh->scalarMin, range = scene.mesh->scalarMax - low;
+    scene.transferFunction.extinction = {{low + 0.6 * range, 0.0}, {low + 0.7 * range, 20.0}, {low + range, 30.0}};
+    const Camera camera = wholeView(*scene.mesh);
+    CpuSkips all;
+    all.invisibleCells = false;
+    for (bool isosurface : {false, true}) {
+        if (isosurface) scene.transferFunction.isosurfaces = {{low + 0.3 * range, 0.3, {1, 1, 1}}};
+        FrameReport with, without;
+        const Image skipped = cpuImage(scene, camera, with), full = cpuImage(scene, camera, without, all);
+        EXPECT_GT(with.cellsSkipped["invisible by transfer function"], scene.mesh->cells.size() / 4);
+        EXPECT_EQ(without.cellsSkipped.count("invisible by transfer function"), 0u);
+        // With isosurfaces a cell takes the scalar at its face from the cell before, if that was drawn: the last bit may change.
+        EXPECT_LE(compareImages(skipped, full).max, isosurface ? 1.2e-7 : 0.0);
+    }
+}
+
+TEST(CpuEngine, EarlyTerminationChangesLessThanItsBound) {
+    const Scene scene = fieldScene("bucky", "opaque", Mode::Standard, 16);
+    const Camera camera = wholeView(*scene.mesh, 96, 96);
+    CpuSkips all;
+    all.earlyTermination = false;
+    FrameReport with, without;
+    const Image stopped = cpuImage(scene, camera, with), full = cpuImage(scene, camera, without, all);
+    EXPECT_LT(with.fragments, without.fragments);
+    EXPECT_LE(compareImages(stopped, full).max, 2e-6);
+}
+
+TEST(CpuEngine, OrderFreePicturesAreNotSorted) {
+    const Scene scene = fieldScene("bucky", "constant", Mode::Standard);
+    const Camera camera = wholeView(*scene.mesh);
+    CpuSkips sorted;
+    sorted.orderFree = false;
+    FrameReport with, without;
+    const Image free = cpuImage(scene, camera, with), ordered = cpuImage(scene, camera, without, sorted);
+    EXPECT_EQ(with.orderMethod, "none");
+    EXPECT_EQ(with.stageMilliseconds.count("sort"), 0u);
+    EXPECT_EQ(with.cellsSorted, 0u);
+    EXPECT_NE(without.orderMethod, "none");
+    EXPECT_LE(compareImages(free, ordered).max, 2e-6);
+    for (Mode mode : {Mode::Mip, Mode::Average}) {
+        FrameReport report;
+        cpuImage(fieldScene("bucky", "smooth", mode), camera, report);
+        EXPECT_EQ(report.orderMethod, "none");
+        EXPECT_EQ(report.stageMilliseconds.count("sort"), 0u);
+    }
+}
+
+TEST(CpuEngine, KeepsListsWhileTheCameraStays) {
+    const Scene scene = fieldScene("bucky", "smooth", Mode::Standard);
+    const Camera first = wholeView(*scene.mesh), second = orbited(first, 0.3);
+    auto engine = makeCpuEngineWith(scene, {});
+    FrameReport report, again, other, back;
+    const Image image = engine->render(first, report);
+    EXPECT_TRUE(engine->render(first, again).pixels == image.pixels);
+    EXPECT_EQ(again.stageMilliseconds.count("cull"), 0u);
+    EXPECT_EQ(again.cellsDrawn, report.cellsDrawn);
+    EXPECT_FALSE(engine->render(second, other).pixels == image.pixels);
+    EXPECT_TRUE(engine->render(first, back).pixels == image.pixels);
+}
+
+TEST(CpuEngine, ThreadsDoNotChangeABit) {
+    for (const char* function : {"smooth", "peaks", "constant"}) {
+        Scene scene = fieldScene("bucky", function, Mode::Standard, 14);
+        const Camera camera = wholeView(*scene.mesh, 150, 110);
+        std::vector<Image> images;
+        for (int threads : {1, 2, 5}) {
+            scene.settings.threads = threads;
+            images.push_back(cpuImage(scene, camera));
+        }
+        EXPECT_TRUE(images[0].pixels == images[1].pixels);
+        EXPECT_TRUE(images[0].pixels == images[2].pixels);
+    }
+}
+
+TEST(CpuEngine, InstructionSetsAgree) {
+    const Scene scene = fieldScene("bucky", "smooth", Mode::Standard, 12);
+    const Scene lit = [&] {
+        Scene s = fieldScene("bucky", "peaks", Mode::ScaleInvariant, 12);
+        s.settings.shading.silhouette = true;
+        return s;
+    }();
+    for (const Scene& each : {scene, lit}) {
+        const Camera camera = wholeView(*each.mesh, 64, 64);
+        const Image best = cpuImage(each, camera);
+        for (std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+            hwy::SetSupportedTargetsForTest(target);
+            const Image image = cpuImage(each, camera);
+            hwy::SetSupportedTargetsForTest(0);
+            EXPECT_LE(compareImages(image, best).rmse, 1e-5) << hwy::TargetName(target);
+        }
+    }
+}
+
+TEST(CpuEngine, CellsOutOfOrderAreNoticed) {
+    const Scene scene = fieldScene("bucky", "smooth", Mode::Standard);
+    CpuSkips unsorted;
+    unsorted.sort = false;
+    for (bool orthographic : {false, true}) {
+        Camera camera = wholeView(*scene.mesh);
+        if (orthographic) camera.orthographicHeight = 1.6;
+        FrameReport right, wrong;
+        const Image expected = cpuImage(scene, camera, right), image = cpuImage(scene, camera, wrong, unsorted);
+        EXPECT_TRUE(right.doubtfulPixels.empty());
+        std::size_t different = 0;
+        for (std::uint32_t i = 0; i < image.pixels.size(); ++i) {
+            const glm::vec4 d = glm::abs(image.pixels[i] - expected.pixels[i]);
+            if (std::max({d.x, d.y, d.z}) < 1e-4f) continue;
+            ++different;
+            ASSERT_TRUE(std::binary_search(wrong.doubtfulPixels.begin(), wrong.doubtfulPixels.end(), i)) << i;
+        }
+        EXPECT_GT(different, 100u);
+    }
+}
+
+}  // namespace
+}  // namespace tetralux::projection

@@ -2,6 +2,7 @@
 #include <mesh/appended_vtu.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 
 #include <fcntl.h>
@@ -11,6 +12,7 @@
 
 #include <mesh/appended_data.h>
 #include <mesh/bookkeeping_names.h>
+#include <mesh/cell_types.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -81,17 +83,56 @@ public:
         if (head_.points / 1100 > file_.size() || head_.cells / 1100 > file_.size() || head_.cells == 0) {
             return std::nullopt;
         }
+        onlyTetrahedra_ = hasOnlyTetrahedra();
         for (const VtuArray& array : head_.arrays) {
             if (!take(array)) {
                 return std::nullopt;
             }
         }
-        const bool whole = soup_.points.size() == head_.points && soup_.types.size() == head_.cells && !soup_.offsets.empty() &&
-                           soup_.offsets.back() == soup_.connectivity.size();
-        return whole ? std::optional(std::move(soup_)) : std::nullopt;
+        return isWhole() ? std::optional(std::move(soup_)) : std::nullopt;
     }
 
 private:
+    bool isWhole() const {
+        const bool cells = onlyTetrahedra_ ? soup_.tetrahedra.size() == head_.cells
+                                           : soup_.types.size() == head_.cells && !soup_.offsets.empty() &&
+                                                 soup_.offsets.back() == soup_.connectivity.size();
+        return cells && soup_.points.size() == head_.points;
+    }
+
+    /// Whether every value of the array of cells called `name` is `wanted(i)`, without keeping it.
+    template <class Wanted>
+    bool isAlways(const std::string& name, const Wanted& wanted) const {
+        for (const VtuArray& array : head_.arrays) {
+            if (array.place != VtuArray::Place::Cells || array.name != name) {
+                continue;
+            }
+            return withType(array.type, [&](auto zero) {
+                using T = decltype(zero);
+                const AppendedArray data(file_.get(), file_.size(), head_, array.offset, sizeof(T));
+                std::atomic<bool> always = data.isSound() && data.elements() == head_.cells;
+                const bool read = always && data.forEachPiece([&](std::uint64_t first, const char* bytes, std::uint64_t count) {
+                    bool same = true;
+                    for (std::uint64_t i = 0; i < count; ++i) {
+                        T value;
+                        std::memcpy(&value, bytes + i * sizeof(T), sizeof(T));
+                        same = same && value == static_cast<T>(wanted(first + i));
+                    }
+                    if (!same) {
+                        always.store(false, std::memory_order_relaxed);
+                    }
+                });
+                return read && always;
+            });
+        }
+        return false;
+    }
+
+    bool hasOnlyTetrahedra() const {
+        return isAlways("types", [](std::uint64_t) { return cell_type::tetrahedron; }) &&
+               isAlways("offsets", [](std::uint64_t i) { return 4 * (i + 1); });
+    }
+
     bool take(const VtuArray& array) {
         switch (array.place) {
             case VtuArray::Place::Points:
@@ -139,7 +180,11 @@ private:
             return false;
         }
         if (array.name == "connectivity") {
-            const auto room = [&](std::uint64_t count) {
+            const auto room = [&](std::uint64_t count) -> std::uint32_t* {
+                if (onlyTetrahedra_) {
+                    soup_.tetrahedra.resize(count == 4 * head_.cells ? head_.cells : 0);
+                    return soup_.tetrahedra.empty() ? nullptr : soup_.tetrahedra[0].data();
+                }
                 soup_.connectivity.resize(count);
                 return soup_.connectivity.data();
             };
@@ -147,6 +192,9 @@ private:
                 const bool fits = value >= 0 && static_cast<std::uint64_t>(value) < CellSoup::invalidPoint;
                 return fits ? static_cast<std::uint32_t>(value) : CellSoup::invalidPoint;
             });
+        }
+        if (onlyTetrahedra_) {
+            return array.name == "types" || array.name == "offsets";  // known already
         }
         if (array.name == "offsets") {
             const auto room = [&](std::uint64_t count) -> std::uint64_t* {
@@ -160,7 +208,7 @@ private:
             return count == head_.cells ? soup_.types.data() : nullptr;
         };
         return array.name == "types" && decode<std::uint8_t>(array, room, [](auto value) {
-            return value >= 0 && value <= 255 && value != polyhedron ? static_cast<std::uint8_t>(value) : std::uint8_t{255};
+            return value >= 0 && value <= 255 && value != cell_type::polyhedron ? static_cast<std::uint8_t>(value) : std::uint8_t{255};
         }) && std::find(soup_.types.begin(), soup_.types.end(), 255) == soup_.types.end();
     }
 
@@ -183,10 +231,10 @@ private:
         return good;
     }
 
-    static constexpr int polyhedron = 42;
     const OpenFile& file_;
     const VtuHead& head_;
     CellSoup soup_;
+    bool onlyTetrahedra_ = false;
 };
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace tetralux::mesh {
 
 /// Nothing if the file is of another kind, has polyhedra or ghosts, or anything about it is amiss: then it is for VTK's reader to read it
 /// or to say what is wrong.
+/// A mesh of nothing but tetrahedra comes in the form that holds just these.
 std::optional<CellSoup> readAppendedVtu(const std::string& path);
 
 }  // namespace tetralux::mesh

@@ -15,44 +15,20 @@
 namespace tetralux::mesh {
 namespace {
 
-/// The tetrahedron of points[at], …, turned round if need be. \returns Good, Inverted, Flat or NonFinitePosition.
-CellVerdict orientTetrahedron(const CellSoup& soup, std::uint64_t at, Tetrahedron& cell) {
-    std::copy_n(soup.connectivity.begin() + static_cast<std::ptrdiff_t>(at), 4, cell.begin());
-    const int side = orientation(soup.points[cell[0]], soup.points[cell[1]], soup.points[cell[2]], soup.points[cell[3]]);
+/// Turns the tetrahedron round if need be. \returns Good, Inverted, Flat, IndexOutOfRange or NonFinitePosition.
+CellVerdict orientTetrahedron(const std::vector<glm::dvec3>& points, Tetrahedron& cell) {
+    if (*std::max_element(cell.begin(), cell.end()) >= points.size()) {
+        return CellVerdict::IndexOutOfRange;
+    }
+    const int side = orientation(points[cell[0]], points[cell[1]], points[cell[2]], points[cell[3]]);
     if (side < 0) {
         std::swap(cell[2], cell[3]);
     }
     if (side == 0) {
-        const bool finite = std::all_of(cell.begin(), cell.end(), [&](PointIndex p) { return isFinitePosition(soup.points[p]); });
+        const bool finite = std::all_of(cell.begin(), cell.end(), [&](PointIndex p) { return isFinitePosition(points[p]); });
         return finite ? CellVerdict::Flat : CellVerdict::NonFinitePosition;
     }
     return side > 0 ? CellVerdict::Good : CellVerdict::Inverted;
-}
-
-/// A mesh of nothing but tetrahedra needs no lists in between.
-Decomposition takeTetrahedra(const CellSoup& soup, std::vector<CellVerdict>& verdicts) {
-    Decomposition result;
-    result.cells.resize(verdicts.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, verdicts.size(), 16384),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                          for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                              if (isKept(verdicts[i])) {
-                                  verdicts[i] = orientTetrahedron(soup, soup.offsets[i], result.cells[i]);
-                              }
-                          }
-                      });
-    if (std::all_of(verdicts.begin(), verdicts.end(), isKept)) {
-        return result;
-    }
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < verdicts.size(); ++i) {
-        if (isKept(verdicts[i])) {
-            result.cells[kept++] = result.cells[i];
-            result.parents.push_back(static_cast<std::uint32_t>(i));
-        }
-    }
-    result.cells.resize(kept);
-    return result;
 }
 
 /// Leaves out points that repeat their predecessor: a collapsed edge.
@@ -86,7 +62,8 @@ CellVerdict decomposeCell(const CellSoup& soup, std::size_t cell, const FaceTria
     const std::uint8_t type = soup.types[cell];
     if (type == cell_type::tetrahedron) {
         Tetrahedron tetrahedron;
-        const CellVerdict verdict = orientTetrahedron(soup, soup.offsets[cell], tetrahedron);
+        std::copy_n(soup.connectivity.begin() + static_cast<std::ptrdiff_t>(soup.offsets[cell]), 4, tetrahedron.begin());
+        const CellVerdict verdict = orientTetrahedron(soup.points, tetrahedron);
         if (isKept(verdict)) {
             out.cells.push_back(tetrahedron);
         }
@@ -152,10 +129,31 @@ Decomposition joinBlocks(std::vector<Block>& blocks, CellSoup& soup) {
 
 }  // namespace
 
-Decomposition decomposeCells(CellSoup& soup, std::vector<CellVerdict>& verdicts) {
-    if (std::all_of(soup.types.begin(), soup.types.end(), [](std::uint8_t t) { return t == cell_type::tetrahedron; })) {
-        return takeTetrahedra(soup, verdicts);
+Decomposition takeTetrahedra(const std::vector<glm::dvec3>& points, std::vector<Tetrahedron>&& cells,
+                             std::vector<CellVerdict>& verdicts) {
+    Decomposition result{std::move(cells), {}};
+    verdicts.resize(result.cells.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, verdicts.size(), 16384),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                              verdicts[i] = orientTetrahedron(points, result.cells[i]);
+                          }
+                      });
+    if (std::all_of(verdicts.begin(), verdicts.end(), isKept)) {
+        return result;
     }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < verdicts.size(); ++i) {
+        if (isKept(verdicts[i])) {
+            result.cells[kept++] = result.cells[i];
+            result.parents.push_back(static_cast<std::uint32_t>(i));
+        }
+    }
+    result.cells.resize(kept);
+    return result;
+}
+
+Decomposition decomposeCells(CellSoup& soup, std::vector<CellVerdict>& verdicts) {
     const FaceTriangulation triangulation(soup, verdicts);
     constexpr std::size_t blockSize = 8192;
     std::vector<Block> blocks((verdicts.size() + blockSize - 1) / blockSize);

@@ -22,6 +22,11 @@ struct Decomposition {
     std::vector<std::uint32_t> parents;  ///< source cell of each; empty when tetrahedron i is cell i of the source
 };
 
+/// Checks tetrahedra, turns the inverted ones round and leaves out the faulty ones, in parallel and in place. `verdicts` gets one
+/// verdict per cell.
+Decomposition takeTetrahedra(const std::vector<glm::dvec3>& points, std::vector<Tetrahedron>&& cells,
+                             std::vector<CellVerdict>& verdicts);
+
 /// Takes the kept cells of `soup` apart, in parallel. Adds points to `soup` where it needs them and sets verdicts to
 /// Inverted, Folded, Flat or Unsupported (an open polyhedron) as it finds them. Cells must have passed `classifyCells`, and curved
 /// ones have become linear.

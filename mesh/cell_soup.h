@@ -3,6 +3,7 @@
 /// What a reader returns: cells of any type, unchecked. Only `validation.h` makes a mesh of it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,6 +21,10 @@ struct CellSoup {
     std::vector<std::uint64_t> offsets;       ///< cell i has connectivity[offsets[i] … offsets[i + 1]); one more than cells
     std::vector<std::uint32_t> connectivity;  ///< point numbers; `invalidPoint` for one that 32 bits cannot hold
 
+    /// A reader that finds nothing but tetrahedra may put their points here instead of filling types, offsets and connectivity,
+    /// which takes half the memory.
+    std::vector<std::array<std::uint32_t, 4>> tetrahedra;
+
     /// Polyhedra only, else empty: cell i has faceStream[faceOffsets[i] … faceOffsets[i + 1]), which holds for each of
     /// its faces the number of points and then these.
     std::vector<std::uint64_t> faceOffsets;
@@ -30,6 +35,7 @@ struct CellSoup {
     std::vector<double> times;         ///< of all steps, if the source is a series; the cells are those of one
 
     static constexpr std::uint32_t invalidPoint = 0xffffffffu;
+    std::size_t cellCount() const { return tetrahedra.empty() ? types.size() : tetrahedra.size(); }
 };
 
 /// Adds a cell to `soup` (offsets get their leading 0 with the first).

@@ -125,6 +125,14 @@ void renumber(std::vector<std::uint32_t>& points, const Representatives& represe
     });
 }
 
+void renumber(std::vector<std::array<std::uint32_t, 4>>& cells, const Representatives& representatives) {
+    tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
+        for (std::uint32_t& p : cells[i]) {
+            p = p < representatives.size() ? representatives[p] : p;
+        }
+    });
+}
+
 void renumberPolyhedra(CellSoup& soup, const Representatives& representatives) {
     for (std::size_t at = 0; at < soup.faceStream.size();) {
         const std::size_t points = soup.faceStream[at++];
@@ -169,6 +177,7 @@ void mergeCoincidentPoints(CellSoup& soup, std::optional<double> tolerance, Mesh
     report.pointsMerged += merged;
     if (merged > 0) {
         renumber(soup.connectivity, representatives);
+        renumber(soup.tetrahedra, representatives);
         renumberPolyhedra(soup, representatives);
     }
 }

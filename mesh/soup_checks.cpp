@@ -149,7 +149,7 @@ std::optional<Defect> defectOf(CellVerdict verdict) {
 
 void checkFields(const CellSoup& soup) {
     for (const Field& field : soup.fields) {
-        const std::size_t places = field.association == Association::Point ? soup.points.size() : soup.types.size();
+        const std::size_t places = field.association == Association::Point ? soup.points.size() : soup.cellCount();
         if (field.components < 1 || field.values.size() != places * static_cast<std::size_t>(field.components)) {
             throw std::runtime_error(fmt::format("field '{}' has {} values for {} {} of {} components; write the file again",
                                                  field.name, field.values.size(), places,
@@ -162,7 +162,7 @@ void checkFields(const CellSoup& soup) {
 }  // namespace
 
 void checkStructure(const CellSoup& soup) {
-    if (soup.points.size() >= CellSoup::invalidPoint || soup.types.size() >= CellSoup::invalidPoint) {
+    if (soup.points.size() >= CellSoup::invalidPoint || soup.cellCount() >= CellSoup::invalidPoint) {
         throw std::runtime_error("more points or cells than 32 bits can number; split the mesh into parts");
     }
     if (!soup.types.empty()) {
@@ -171,7 +171,10 @@ void checkStructure(const CellSoup& soup) {
     if (!soup.faceOffsets.empty()) {
         checkOffsets(soup.faceOffsets, soup.types.size(), soup.faceStream.size(), "polyhedron faces");
     }
-    if (!soup.hidden.empty() && soup.hidden.size() != soup.types.size()) {
+    if (!soup.tetrahedra.empty() && !soup.types.empty()) {
+        throw std::runtime_error("its reader gave its cells twice; this is a fault of the reader, please report it");
+    }
+    if (!soup.hidden.empty() && soup.hidden.size() != soup.cellCount()) {
         throw std::runtime_error("its ghost flags are not one per cell; write the file again");
     }
     checkFields(soup);
@@ -210,16 +213,21 @@ void reportCells(const std::vector<std::uint8_t>& types, const std::vector<CellV
 
 void reportUnusedPoints(const CellSoup& soup, std::size_t pointCount, MeshReport& report) {
     std::vector<std::uint8_t> used(pointCount, 0);
-    const auto mark = [&](const std::vector<std::uint32_t>& points) {
-        tbb::parallel_for(Range(0, points.size(), grain), [&](const Range& range) {
-            for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                if (points[i] < pointCount) {
-                    std::atomic_ref<std::uint8_t>(used[points[i]]).store(1, std::memory_order_relaxed);
-                }
-            }
-        });
+    const auto mark = [&](std::uint32_t p) {
+        if (p < pointCount) {
+            std::atomic_ref<std::uint8_t>(used[p]).store(1, std::memory_order_relaxed);
+        }
     };
-    mark(soup.connectivity);  // a polyhedron's points stand there too
+    tbb::parallel_for(Range(0, soup.connectivity.size(), grain), [&](const Range& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            mark(soup.connectivity[i]);  // a polyhedron's points stand there too
+        }
+    });
+    tbb::parallel_for(Range(0, soup.tetrahedra.size(), grain), [&](const Range& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            std::for_each(soup.tetrahedra[i].begin(), soup.tetrahedra[i].end(), mark);
+        }
+    });
     for (std::size_t p = 0; p < pointCount; ++p) {
         if (used[p] == 0) {
             report.add(Defect::UnusedPoint, p);

@@ -2,12 +2,14 @@
 #include <mesh/validation.h>
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <mesh/cell_decomposition.h>
+#include <mesh/cell_types.h>
 #include <mesh/duplicate_cells.h>
 #include <mesh/merge_points.h>
 #include <mesh/smooth_cells.h>
@@ -142,8 +144,53 @@ Decomposition decomposePieces(CellSoup& soup, const std::vector<std::uint32_t>& 
     return decomposition;
 }
 
+/// Turns a soup of nothing but tetrahedra into the form that holds just these, so that the rest is quick and needs little memory.
+void preferTetrahedra(CellSoup& soup) {
+    const auto isTetrahedron = [](std::uint8_t type) { return type == cell_type::tetrahedron; };
+    if (soup.types.empty() || !soup.hidden.empty() || soup.connectivity.size() != 4 * soup.types.size() ||
+        !std::all_of(soup.types.begin(), soup.types.end(), isTetrahedron)) {
+        return;
+    }
+    for (std::size_t i = 0; i < soup.offsets.size(); ++i) {
+        if (soup.offsets[i] != 4 * i) {
+            return;
+        }
+    }
+    soup.types = {};
+    soup.offsets = {};
+    soup.tetrahedra.resize(soup.connectivity.size() / 4);
+    std::memcpy(soup.tetrahedra.data(), soup.connectivity.data(), soup.connectivity.size() * sizeof(std::uint32_t));
+    soup.connectivity = {};
+}
+
+/// The other way round, for what needs the general form.
+void preferGeneralCells(CellSoup& soup) {
+    for (const Tetrahedron& cell : soup.tetrahedra) {
+        appendCell(soup, cell_type::tetrahedron, cell);
+    }
+    soup.tetrahedra = {};
+}
+
+/// `decompose` for a soup that holds just tetrahedra.
+Decomposition decomposeTetrahedra(CellSoup& soup, const ReadOptions& options, MeshReport& report) {
+    reportUnusedPoints(soup, soup.points.size(), report);
+    mergeCoincidentPoints(soup, options.mergeTolerance, report);
+    std::vector<CellVerdict> verdicts;
+    Decomposition decomposition = takeTetrahedra(soup.points, std::move(soup.tetrahedra), verdicts);
+    reportCells(std::vector<std::uint8_t>(verdicts.size(), cell_type::tetrahedron), verdicts, report);
+    return decomposition;
+}
+
 /// Everything between the checks of single cells and those of tetrahedra.
 Decomposition decompose(CellSoup& soup, const ReadOptions& options, MeshReport& report) {
+    if (!options.smoothCells) {
+        preferTetrahedra(soup);
+    } else {
+        preferGeneralCells(soup);
+    }
+    if (!soup.tetrahedra.empty()) {
+        return decomposeTetrahedra(soup, options, report);
+    }
     std::vector<CellVerdict> verdicts = classifyCells(soup);
     reportUnusedPoints(soup, soup.points.size(), report);
     mergeCoincidentPoints(soup, options.mergeTolerance, report);

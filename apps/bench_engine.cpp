@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <apps/bench_engine.h>
 
+#include <time.h>
+
 #include <algorithm>
 #include <chrono>
 #include <exception>
@@ -33,6 +35,13 @@ public:
 private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+/// Processor time of all threads of this process so far.
+double processorMilliseconds() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
 
 /// Errors of libraries are one line, but not everybody's.
 std::string oneLine(std::string text) {
@@ -82,17 +91,19 @@ void drawFrames(Engine& engine, const projection::Scene& scene, const ReferenceI
     const auto draw = [&](int frame) {
         FrameReport report;
         const projection::Camera camera = benchCamera(scene.mesh->bounds, size, frame);
+        const double processorBefore = processorMilliseconds();
         const Stopwatch watch;
         Image image = engine.render(camera, report);
         const double milliseconds = watch.milliseconds();
         spent += milliseconds;
-        return std::tuple(std::move(image), std::move(report), milliseconds);
+        return std::tuple(std::move(image), std::move(report), milliseconds, processorMilliseconds() - processorBefore);
     };
     draw(-1);
     for (int frame = 0; frame < plan.frames; ++frame) {
         if (frame > 0 && spent > 1000.0 * plan.budgetSeconds) break;
-        auto [image, report, milliseconds] = draw(frame);
+        auto [image, report, milliseconds, processor] = draw(frame);
         row.frameMilliseconds.push_back(milliseconds);
+        row.processorMilliseconds.push_back(processor);
         row.pixelsRepaired += report.pixelsRepaired;
         if (static_cast<std::size_t>(frame) < reference.images.size())
             judgeFrame(row, reference, static_cast<std::size_t>(frame), image);
@@ -180,6 +191,7 @@ std::vector<BenchRow> measureEngine(const projection::Scene& scene, const Engine
     try {
         const Stopwatch preparing;
         engine = projection::makeEngine(withChoice(scene, choice), choice.options);
+        if (choice.tableSize > 0 && engine->table() == nullptr) return {};  // there is nothing to set
         const double prepareMilliseconds = preparing.milliseconds();
         const std::uint64_t preparePeak = peakMemoryBytes();
         for (; done < rows.size(); ++done) {

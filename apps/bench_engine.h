@@ -41,8 +41,8 @@ struct ReferenceImages {
 /// The reference engine's pictures of the first `plan.judged` frames, and its own row.
 ReferenceImages judge(const projection::Scene& scene, const BenchSubject& subject, const FramePlan& plan);
 
-/// One row for each of `subjects`, which differ in size alone; `references` are theirs. The engine is made once. Where
-/// it cannot be made or fails, the rows say why.
+/// One row for each of `subjects`, which differ in size alone; `references` are theirs. The engine is made once; none
+/// where a table's size is asked of an engine without table. Where it cannot be made or fails, the rows say why.
 std::vector<BenchRow> measureEngine(const projection::Scene& scene, const EngineChoice& choice,
                                     const std::vector<BenchSubject>& subjects,
                                     const std::vector<ReferenceImages>& references, const FramePlan& plan);

@@ -13,8 +13,8 @@
 
 namespace tetralux::apps {
 
-/// A block per subject; '*' marks the rows that no other beats in both time and error. Its last line sets our fastest engine against
-/// VTK's fastest mapper, where both were measured.
+/// A block per subject; '*' marks the rows that no other beats in both time and error. Its last line sets our fastest
+/// engine against VTK's fastest mapper, where both were measured.
 std::string benchTable(const std::vector<BenchRow>& rows);
 
 /// A header and a line per row. Several values in one column stand as "name=value;name=value".

@@ -23,6 +23,10 @@ double BenchRow::leastMilliseconds() const {
     return frameMilliseconds.empty() ? 0.0 : *std::min_element(frameMilliseconds.begin(), frameMilliseconds.end());
 }
 
+double BenchRow::medianProcessorMilliseconds() const {
+    return processorMilliseconds.empty() ? 0.0 : median(processorMilliseconds);
+}
+
 double BenchRow::tetrahedraPerSecond() const {
     return perSecond(subject.tetrahedra, medianMilliseconds());
 }

@@ -32,7 +32,9 @@ struct BenchRow {
     std::string renderer;  ///< what did the work
     std::string failure;   ///< one line; empty when there are figures
 
-    std::vector<double> frameMilliseconds;              ///< camera moved before each, after a warm-up
+    std::vector<double> frameMilliseconds;  ///< camera moved before each, after a warm-up
+    /// Of all threads together, frame by frame: what is left to compare when others keep the machine busy.
+    std::vector<double> processorMilliseconds;
     std::map<std::string, double> stageMilliseconds;    ///< medians over the frames
     std::map<std::string, double> prepareMilliseconds;  ///< once for all frames, by part
     double prepareTotalMilliseconds = 0.0;
@@ -54,6 +56,7 @@ struct BenchRow {
 
     double medianMilliseconds() const;  ///< 0 without frames
     double leastMilliseconds() const;   ///< of the least disturbed frame; 0 without frames
+    double medianProcessorMilliseconds() const;
     double tetrahedraPerSecond() const;
     double fragmentsPerSecond() const;
     double bytesPerTetrahedron() const;  ///< of memoryOverMeshBytes

@@ -122,6 +122,7 @@ std::vector<std::string> commandLine(const std::string& program, const fs::path&
 void readResult(const json& result, BenchRow& row) {
     row.renderer = result.at("renderer");
     row.frameMilliseconds = result.at("frame_ms").get<std::vector<double>>();
+    row.processorMilliseconds = result.at("processor_ms").get<std::vector<double>>();
     row.prepareTotalMilliseconds = result.at("first_frame_ms");
     row.prepareMilliseconds["first frame"] = row.prepareTotalMilliseconds;
     row.peakMemoryBytes = result.at("peak_memory_bytes");

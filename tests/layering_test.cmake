@@ -21,7 +21,7 @@ function(find_breaches root out)
   set(breaches "")
   file(GLOB_RECURSE sources RELATIVE ${root} ${root}/mesh/* ${root}/preint/* ${root}/shading/* ${root}/projection/* ${root}/apps/*
        ${root}/tests/*)
-  list(FILTER sources INCLUDE REGEX "\\.(h|cpp|glsl|vert|frag|comp|geom|cmake|py)$|/CMakeLists\\.txt$")
+  list(FILTER sources INCLUDE REGEX "\\.(h|inl|cpp|glsl|vert|frag|comp|geom|cmake|py)$|/CMakeLists\\.txt$")
   list(FILTER sources EXCLUDE REGEX "^tests/data/|/build/")
   foreach(source IN LISTS sources)
     string(REGEX MATCH "^[^/]+" folder ${source})

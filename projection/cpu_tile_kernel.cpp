@@ -166,7 +166,9 @@ private:
 
     HWY_INLINE void drawCell(std::size_t j) {
         const int x1 = batch_.end[j][0], y1 = batch_.end[j][1];
-        const int xBegin = batch_.begin[j][0] / columnWidth * columnWidth, yBegin = batch_.begin[j][1];
+        const int xBegin = batch_.begin[j][0] / columnWidth * columnWidth, yFirst = batch_.begin[j][1], yGrid = yFirst / rows * rows;
+        // blocks on the grid are loaded faster; beside it a cell may take fewer
+        const int yBegin = (y1 - yFirst + rows - 1) / rows == (y1 - yGrid + rows - 1) / rows ? yGrid : yFirst;
         if (xBegin >= x1 || yBegin >= y1) return;
         const FaceOrder& order = faceOrders[batch_.frontMask[j]];
         const int* face = order.face;

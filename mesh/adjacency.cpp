@@ -39,17 +39,16 @@ SortedFace sortedFace(const Tetrahedron& cell, std::size_t k) {
 }
 
 PointIndex smallestVertex(const Tetrahedron& cell, std::size_t k) {
-    return std::min({cell[static_cast<std::size_t>(faceVertices[k][0])], cell[static_cast<std::size_t>(faceVertices[k][1])],
+    return std::min({cell[static_cast<std::size_t>(faceVertices[k][0])],
+                     cell[static_cast<std::size_t>(faceVertices[k][1])],
                      cell[static_cast<std::size_t>(faceVertices[k][2])]});
 }
 
 struct FaceEntry {
-    std::uint64_t key;  ///< middle and high vertex; all entries of a bucket share the low one
-    std::uint64_t face; ///< 4 · cell + k
+    std::uint64_t key;   ///< middle and high vertex; all entries of a bucket share the low one
+    std::uint64_t face;  ///< 4 · cell + k
     bool odd;
-    bool operator<(const FaceEntry& other) const {
-        return key != other.key ? key < other.key : face < other.face;
-    }
+    bool operator<(const FaceEntry& other) const { return key != other.key ? key < other.key : face < other.face; }
 };
 
 struct Counts {

@@ -49,7 +49,8 @@ void appendPolyhedra(CellSoup& soup, const CellSoup& other, std::uint32_t shift)
     for (std::uint64_t at = before; at < soup.faceStream.size();) {
         const std::uint64_t points = soup.faceStream[at++];
         for (std::uint64_t k = 0; k < points && at < soup.faceStream.size(); ++k, ++at) {
-            soup.faceStream[at] = soup.faceStream[at] >= other.points.size() ? CellSoup::invalidPoint : soup.faceStream[at] + shift;
+            soup.faceStream[at] =
+                soup.faceStream[at] >= other.points.size() ? CellSoup::invalidPoint : soup.faceStream[at] + shift;
         }
     }
 }

@@ -68,8 +68,8 @@ bool decompress(VtuHead::Compression compression, const std::vector<char>& block
                                         reinterpret_cast<const Bytef*>(block.data()), block.size());
         return status == Z_OK && size == values.size();
     }
-    return LZ4_decompress_safe(block.data(), values.data(), static_cast<int>(block.size()), static_cast<int>(values.size())) ==
-           static_cast<int>(values.size());
+    return LZ4_decompress_safe(block.data(), values.data(), static_cast<int>(block.size()),
+                               static_cast<int>(values.size())) == static_cast<int>(values.size());
 }
 
 }  // namespace
@@ -84,14 +84,16 @@ bool EncodedStream::read(std::uint64_t offset, std::uint64_t size, char* out) co
     thread_local std::vector<char> bytes;
     text.resize(4 * groups);
     bytes.resize(3 * groups);
-    if (!readAt(file_, start_ + 4 * firstGroup, text.size(), text.data()) || !decodeBase64(text.data(), groups, bytes.data())) {
+    if (!readAt(file_, start_ + 4 * firstGroup, text.size(), text.data()) ||
+        !decodeBase64(text.data(), groups, bytes.data())) {
         return false;
     }
     std::memcpy(out, bytes.data() + (offset - 3 * firstGroup), size);
     return true;
 }
 
-AppendedArray::AppendedArray(int file, std::uint64_t fileSize, const VtuHead& head, std::uint64_t offset, unsigned elementBytes)
+AppendedArray::AppendedArray(int file, std::uint64_t fileSize, const VtuHead& head, std::uint64_t offset,
+                             unsigned elementBytes)
     : header_(file, head.dataStart + offset, head.base64),
       data_(header_),
       fileSize_(fileSize),
@@ -103,7 +105,8 @@ AppendedArray::AppendedArray(int file, std::uint64_t fileSize, const VtuHead& he
         return;
     }
     const bool plain = compression_ == VtuHead::Compression::None;
-    sound_ = (plain ? readPlainHeader() : readBlockHeader()) && bytes_ % elementBytes_ == 0 && pieceBytes_ % elementBytes_ == 0;
+    sound_ = (plain ? readPlainHeader() : readBlockHeader()) && bytes_ % elementBytes_ == 0 &&
+             pieceBytes_ % elementBytes_ == 0;
     if (sound_ && !plain) {
         const std::uint64_t headerSize = (3 + blockEnds_.size()) * headerBytes_;
         const std::uint64_t encoded = base64_ ? (headerSize + 2) / 3 * 4 : headerSize;

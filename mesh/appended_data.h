@@ -15,7 +15,8 @@ namespace tetralux::mesh {
 class EncodedStream {
 public:
     EncodedStream(int file, std::uint64_t start, bool base64) : file_(file), start_(start), base64_(base64) {}
-    /// Bytes `offset` to `offset` + `size` of the stream. \returns false if the file ends before or is no base64. Any thread may call.
+    /// Bytes `offset` to `offset` + `size` of the stream. \returns false if the file ends before or is no base64. Any
+    /// thread may call.
     bool read(std::uint64_t offset, std::uint64_t size, char* out) const;
 
 private:
@@ -34,8 +35,8 @@ public:
     bool isSound() const { return sound_; }
     std::uint64_t elements() const { return bytes_ / elementBytes_; }
 
-    /// Calls `use(first, values, count)` for all values, piece by piece, from many threads; `values` are the bytes of elements
-    /// first … first + count. \returns false if a piece cannot be read or does not decompress to its size.
+    /// Calls `use(first, values, count)` for all values, piece by piece, from many threads; `values` are the bytes of
+    /// elements first … first + count. \returns false if a piece cannot be read or does not decompress to its size.
     bool forEachPiece(const std::function<void(std::uint64_t, const char*, std::uint64_t)>& use) const;
 
 private:
@@ -51,10 +52,10 @@ private:
     unsigned elementBytes_;
     VtuHead::Compression compression_;
     bool base64_;
-    std::uint64_t dataOffset_ = 0;              ///< of the first piece within data_
-    std::uint64_t bytes_ = 0;                   ///< of all values
-    std::uint64_t pieceBytes_ = 0;              ///< of the values of every piece but the last
-    std::vector<std::uint64_t> blockEnds_;      ///< of compressed blocks, within data_
+    std::uint64_t dataOffset_ = 0;          ///< of the first piece within data_
+    std::uint64_t bytes_ = 0;               ///< of all values
+    std::uint64_t pieceBytes_ = 0;          ///< of the values of every piece but the last
+    std::vector<std::uint64_t> blockEnds_;  ///< of compressed blocks, within data_
     bool sound_ = false;
 };
 

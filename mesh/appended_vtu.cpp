@@ -21,7 +21,9 @@ class OpenFile {
 public:
     explicit OpenFile(const std::string& path) : file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
         struct stat status {};
-        size_ = file_ >= 0 && ::fstat(file_, &status) == 0 && S_ISREG(status.st_mode) ? static_cast<std::uint64_t>(status.st_size) : 0;
+        size_ = file_ >= 0 && ::fstat(file_, &status) == 0 && S_ISREG(status.st_mode)
+                    ? static_cast<std::uint64_t>(status.st_size)
+                    : 0;
     }
     OpenFile(const OpenFile&) = delete;
     OpenFile& operator=(const OpenFile&) = delete;
@@ -111,17 +113,18 @@ private:
                 using T = decltype(zero);
                 const AppendedArray data(file_.get(), file_.size(), head_, array.offset, sizeof(T));
                 std::atomic<bool> always = data.isSound() && data.elements() == head_.cells;
-                const bool read = always && data.forEachPiece([&](std::uint64_t first, const char* bytes, std::uint64_t count) {
-                    bool same = true;
-                    for (std::uint64_t i = 0; i < count; ++i) {
-                        T value;
-                        std::memcpy(&value, bytes + i * sizeof(T), sizeof(T));
-                        same = same && value == static_cast<T>(wanted(first + i));
-                    }
-                    if (!same) {
-                        always.store(false, std::memory_order_relaxed);
-                    }
-                });
+                const bool read =
+                    always && data.forEachPiece([&](std::uint64_t first, const char* bytes, std::uint64_t count) {
+                        bool same = true;
+                        for (std::uint64_t i = 0; i < count; ++i) {
+                            T value;
+                            std::memcpy(&value, bytes + i * sizeof(T), sizeof(T));
+                            same = same && value == static_cast<T>(wanted(first + i));
+                        }
+                        if (!same) {
+                            always.store(false, std::memory_order_relaxed);
+                        }
+                    });
                 return read && always;
             });
         }
@@ -154,13 +157,14 @@ private:
             using T = decltype(zero);
             const AppendedArray data(file_.get(), file_.size(), head_, array.offset, sizeof(T));
             Out* const out = data.isSound() ? makeRoom(data.elements()) : nullptr;
-            return out != nullptr && data.forEachPiece([&](std::uint64_t first, const char* bytes, std::uint64_t count) {
-                for (std::uint64_t i = 0; i < count; ++i) {
-                    T value;
-                    std::memcpy(&value, bytes + i * sizeof(T), sizeof(T));
-                    out[first + i] = convert(value);
-                }
-            });
+            return out != nullptr &&
+                   data.forEachPiece([&](std::uint64_t first, const char* bytes, std::uint64_t count) {
+                       for (std::uint64_t i = 0; i < count; ++i) {
+                           T value;
+                           std::memcpy(&value, bytes + i * sizeof(T), sizeof(T));
+                           out[first + i] = convert(value);
+                       }
+                   });
         });
     }
 
@@ -207,9 +211,14 @@ private:
             soup_.types.resize(count == head_.cells ? count : 0);
             return count == head_.cells ? soup_.types.data() : nullptr;
         };
-        return array.name == "types" && decode<std::uint8_t>(array, room, [](auto value) {
-            return value >= 0 && value <= 255 && value != cell_type::polyhedron ? static_cast<std::uint8_t>(value) : std::uint8_t{255};
-        }) && std::find(soup_.types.begin(), soup_.types.end(), 255) == soup_.types.end();
+        return array.name == "types" &&
+               decode<std::uint8_t>(array, room,
+                                    [](auto value) {
+                                        return value >= 0 && value <= 255 && value != cell_type::polyhedron
+                                                   ? static_cast<std::uint8_t>(value)
+                                                   : std::uint8_t{255};
+                                    }) &&
+               std::find(soup_.types.begin(), soup_.types.end(), 255) == soup_.types.end();
     }
 
     bool takeField(const VtuArray& array, Association association, std::uint64_t places) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// The common kind of .vtu file (one piece, all arrays appended, raw or base64, plain, zlib or lz4), read by many threads
-/// straight into a CellSoup: two to five times as fast as VTK's reader, without its copy.
+/// The common kind of .vtu file (one piece, all arrays appended, raw or base64, plain, zlib or lz4), read by many
+/// threads straight into a CellSoup: two to five times as fast as VTK's reader, without its copy.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,8 @@
 
 namespace tetralux::mesh {
 
-/// Nothing if the file is of another kind, has polyhedra or ghosts, or anything about it is amiss: then it is for VTK's reader to read it
-/// or to say what is wrong.
-/// A mesh of nothing but tetrahedra comes in the form that holds just these.
+/// Nothing if the file is of another kind, has polyhedra or ghosts, or anything about it is amiss: then it is for VTK's
+/// reader to read it or to say what is wrong. A mesh of nothing but tetrahedra comes in the form that holds just these.
 std::optional<CellSoup> readAppendedVtu(const std::string& path);
 
 }  // namespace tetralux::mesh

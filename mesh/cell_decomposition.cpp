@@ -25,7 +25,8 @@ CellVerdict orientTetrahedron(const std::vector<glm::dvec3>& points, Tetrahedron
         std::swap(cell[2], cell[3]);
     }
     if (side == 0) {
-        const bool finite = std::all_of(cell.begin(), cell.end(), [&](PointIndex p) { return isFinitePosition(points[p]); });
+        const bool finite =
+            std::all_of(cell.begin(), cell.end(), [&](PointIndex p) { return isFinitePosition(points[p]); });
         return finite ? CellVerdict::Flat : CellVerdict::NonFinitePosition;
     }
     return side > 0 ? CellVerdict::Good : CellVerdict::Inverted;
@@ -56,13 +57,17 @@ void collectFaces(const CellSoup& soup, std::size_t cell, std::vector<std::vecto
 }
 
 /// Whether writers agree on which way round cells of this type are numbered.
-bool hasAgreedOrientation(std::uint8_t type) { return type != cell_type::wedge && type != cell_type::polyhedron; }
+bool hasAgreedOrientation(std::uint8_t type) {
+    return type != cell_type::wedge && type != cell_type::polyhedron;
+}
 
-CellVerdict decomposeCell(const CellSoup& soup, std::size_t cell, const FaceTriangulation& triangulation, ConeOutput& out) {
+CellVerdict decomposeCell(const CellSoup& soup, std::size_t cell, const FaceTriangulation& triangulation,
+                          ConeOutput& out) {
     const std::uint8_t type = soup.types[cell];
     if (type == cell_type::tetrahedron) {
         Tetrahedron tetrahedron;
-        std::copy_n(soup.connectivity.begin() + static_cast<std::ptrdiff_t>(soup.offsets[cell]), 4, tetrahedron.begin());
+        std::copy_n(soup.connectivity.begin() + static_cast<std::ptrdiff_t>(soup.offsets[cell]), 4,
+                    tetrahedron.begin());
         const CellVerdict verdict = orientTetrahedron(soup.points, tetrahedron);
         if (isKept(verdict)) {
             out.cells.push_back(tetrahedron);

@@ -4,9 +4,9 @@
 ///
 /// Every face is cut into triangles (`face_triangulation.h`); the cell is then a cone: one of its points, joined to all
 /// triangles that do not touch it. With faces cut by the smallest-number rule the smallest number of the cell always
-/// serves for planar faces: 6 tetrahedra for a hexahedron, 3 for a wedge, 2 for a pyramid (Dompierre et al. 1999). Where
-/// warped faces or neighbours' diagonals leave no such point, the apex is a new point inside the cell, on which a field
-/// that is linear over the cell keeps its value.
+/// serves for planar faces: 6 tetrahedra for a hexahedron, 3 for a wedge, 2 for a pyramid (Dompierre et al. 1999).
+/// Where warped faces or neighbours' diagonals leave no such point, the apex is a new point inside the cell, on which a
+/// field that is linear over the cell keeps its value.
 #pragma once
 
 #include <vector>
@@ -22,14 +22,14 @@ struct Decomposition {
     std::vector<std::uint32_t> parents;  ///< source cell of each; empty when tetrahedron i is cell i of the source
 };
 
-/// Checks tetrahedra, turns the inverted ones round and leaves out the faulty ones, in parallel and in place. `verdicts` gets one
-/// verdict per cell.
+/// Checks tetrahedra, turns the inverted ones round and leaves out the faulty ones, in parallel and in place.
+/// `verdicts` gets one verdict per cell.
 Decomposition takeTetrahedra(const std::vector<glm::dvec3>& points, std::vector<Tetrahedron>&& cells,
                              std::vector<CellVerdict>& verdicts);
 
 /// Takes the kept cells of `soup` apart, in parallel. Adds points to `soup` where it needs them and sets verdicts to
-/// Inverted, Folded, Flat or Unsupported (an open polyhedron) as it finds them. Cells must have passed `classifyCells`, and curved
-/// ones have become linear.
+/// Inverted, Folded, Flat or Unsupported (an open polyhedron) as it finds them. Cells must have passed `classifyCells`,
+/// and curved ones have become linear.
 Decomposition decomposeCells(CellSoup& soup, std::vector<CellVerdict>& verdicts);
 
 }  // namespace tetralux::mesh

@@ -16,13 +16,13 @@ namespace tetralux::mesh {
 /// Mixed cells in the numbering of VTK's cell types (`cell_types.h` names them). Nothing is promised: indices may
 /// be out of range, positions not finite, arrays of the wrong length.
 struct CellSoup {
-    std::vector<glm::dvec3> points;           ///< mesh units
-    std::vector<std::uint8_t> types;          ///< VTK cell type of each cell
-    std::vector<std::uint64_t> offsets;       ///< cell i has connectivity[offsets[i] … offsets[i + 1]); one more than cells
+    std::vector<glm::dvec3> points;      ///< mesh units
+    std::vector<std::uint8_t> types;     ///< VTK cell type of each cell
+    std::vector<std::uint64_t> offsets;  ///< cell i has connectivity[offsets[i] … offsets[i + 1]); one more than cells
     std::vector<std::uint32_t> connectivity;  ///< point numbers; `invalidPoint` for one that 32 bits cannot hold
 
-    /// A reader that finds nothing but tetrahedra may put their points here instead of filling types, offsets and connectivity,
-    /// which takes half the memory.
+    /// A reader that finds nothing but tetrahedra may put their points here instead of filling types, offsets and
+    /// connectivity, which takes half the memory.
     std::vector<std::array<std::uint32_t, 4>> tetrahedra;
 
     /// Polyhedra only, else empty: cell i has faceStream[faceOffsets[i] … faceOffsets[i + 1]), which holds for each of

@@ -13,10 +13,12 @@ using Ids = std::array<std::uint8_t, n>;
 constexpr Ids<3> tet0{1, 2, 3}, tet1{0, 3, 2}, tet2{0, 1, 3}, tet3{0, 2, 1};
 constexpr std::array<Face, 4> tetrahedronFaces{tet0, tet1, tet2, tet3};
 
-constexpr Ids<4> hex0{0, 4, 7, 3}, hex1{1, 2, 6, 5}, hex2{0, 1, 5, 4}, hex3{3, 7, 6, 2}, hex4{0, 3, 2, 1}, hex5{4, 5, 6, 7};
+constexpr Ids<4> hex0{0, 4, 7, 3}, hex1{1, 2, 6, 5}, hex2{0, 1, 5, 4}, hex3{3, 7, 6, 2}, hex4{0, 3, 2, 1},
+    hex5{4, 5, 6, 7};
 constexpr std::array<Face, 6> hexahedronFaces{hex0, hex1, hex2, hex3, hex4, hex5};
 
-constexpr Ids<4> vox0{0, 4, 6, 2}, vox1{1, 3, 7, 5}, vox2{0, 1, 5, 4}, vox3{2, 6, 7, 3}, vox4{0, 2, 3, 1}, vox5{4, 5, 7, 6};
+constexpr Ids<4> vox0{0, 4, 6, 2}, vox1{1, 3, 7, 5}, vox2{0, 1, 5, 4}, vox3{2, 6, 7, 3}, vox4{0, 2, 3, 1},
+    vox5{4, 5, 7, 6};
 constexpr std::array<Face, 6> voxelFaces{vox0, vox1, vox2, vox3, vox4, vox5};
 
 // VTK's wedge has its first triangle's normal pointing outwards.

@@ -17,7 +17,8 @@ inline constexpr std::uint8_t quadraticTetrahedron = 24, quadraticHexahedron = 2
 inline constexpr std::uint8_t quadraticPyramid = 27, triquadraticHexahedron = 29, quadraticLinearWedge = 31;
 inline constexpr std::uint8_t biquadraticQuadraticWedge = 32, biquadraticQuadraticHexahedron = 33;
 inline constexpr std::uint8_t triquadraticPyramid = 37;
-inline constexpr std::uint8_t lagrangeTetrahedron = 71, lagrangeHexahedron = 72, lagrangeWedge = 73, lagrangePyramid = 74;
+inline constexpr std::uint8_t lagrangeTetrahedron = 71, lagrangeHexahedron = 72, lagrangeWedge = 73,
+                              lagrangePyramid = 74;
 inline constexpr std::uint8_t bezierTetrahedron = 78, bezierHexahedron = 79, bezierWedge = 80, bezierPyramid = 81;
 }  // namespace cell_type
 
@@ -34,8 +35,8 @@ struct CellTypeInfo {
 
 CellTypeInfo cellTypeInfo(std::uint8_t type);
 
-/// Faces of a linear solid (not of a polyhedron) as local points, outward counter-clockwise for a cell whose points are in
-/// VTK's order; empty for other types.
+/// Faces of a linear solid (not of a polyhedron) as local points, outward counter-clockwise for a cell whose points are
+/// in VTK's order; empty for other types.
 std::span<const std::span<const std::uint8_t>> linearCellFaces(std::uint8_t type);
 
 }  // namespace tetralux::mesh

@@ -30,7 +30,9 @@ int coneOrientation(const Points& points, const Triangle& t, const glm::dvec3& a
     return orientation(points[t[0]], points[t[2]], points[t[1]], apex);
 }
 
-bool touches(const Triangle& t, std::uint32_t p) { return t[0] == p || t[1] == p || t[2] == p; }
+bool touches(const Triangle& t, std::uint32_t p) {
+    return t[0] == p || t[1] == p || t[2] == p;
+}
 
 std::vector<std::uint32_t>& uniquePoints(const std::vector<Triangle>& surface) {
     thread_local std::vector<std::uint32_t> ids;
@@ -62,8 +64,8 @@ glm::dvec3 mean(const Points& points, const std::vector<std::uint32_t>& ids) {
     return sum;
 }
 
-/// Moves `start` behind the plane that it violates most, again and again, until it lies `margin` behind every triangle's
-/// plane or the steps are used up: a point of the kernel, if the solid has one wide enough.
+/// Moves `start` behind the plane that it violates most, again and again, until it lies `margin` behind every
+/// triangle's plane or the steps are used up: a point of the kernel, if the solid has one wide enough.
 glm::dvec3 seekKernel(const Points& points, const std::vector<Triangle>& surface, glm::dvec3 start, double margin) {
     constexpr int steps = 60;
     for (int step = 0; step < steps; ++step) {
@@ -89,8 +91,8 @@ glm::dvec3 seekKernel(const Points& points, const std::vector<Triangle>& surface
     return start;
 }
 
-/// Weights that sum to 1, give `target` back as their blend of the points, and are nearest to equal: with the mean m and
-/// M = Σ (x − m)(x − m)ᵀ, w_i = 1/n + (x_i − m)ᵀ M⁻¹ (target − m). A linear field is then exact at the new point.
+/// Weights that sum to 1, give `target` back as their blend of the points, and are nearest to equal: with the mean m
+/// and M = Σ (x − m)(x − m)ᵀ, w_i = 1/n + (x_i − m)ᵀ M⁻¹ (target − m). A linear field is then exact at the new point.
 void addBlend(const Points& points, const std::vector<std::uint32_t>& ids, const glm::dvec3& target, PointBlends& out) {
     const glm::dvec3 centre = mean(points, ids);
     const double equal = 1.0 / static_cast<double>(ids.size());
@@ -110,7 +112,8 @@ void addBlend(const Points& points, const std::vector<std::uint32_t>& ids, const
 }
 
 /// A new apex: the mean of the points if that sees the whole surface, else a point sought for.
-glm::dvec3 chooseCentre(const Points& points, const std::vector<Triangle>& surface, const std::vector<std::uint32_t>& ids) {
+glm::dvec3 chooseCentre(const Points& points, const std::vector<Triangle>& surface,
+                        const std::vector<std::uint32_t>& ids) {
     const glm::dvec3 centre = mean(points, ids);
     if (seesSurface(points, surface, centre)) {
         return centre;
@@ -154,7 +157,8 @@ std::size_t coneAboutCentre(const Points& points, const std::vector<Triangle>& s
 
 }  // namespace
 
-CellVerdict coneDecomposition(const Points& points, std::vector<Triangle>& surface, bool expectOutward, ConeOutput& out) {
+CellVerdict coneDecomposition(const Points& points, std::vector<Triangle>& surface, bool expectOutward,
+                              ConeOutput& out) {
     std::erase_if(surface, [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
     if (surface.size() < 4) {
         return CellVerdict::Flat;

@@ -24,8 +24,8 @@ struct ConeOutput {
 };
 
 /// Appends the tetrahedra of the solid within `surface`, a closed set of triangles that all turn the same way round
-/// (outwards, or all inwards, which is mended). \returns Good; Inverted if they turned inwards and `expectOutward`; Folded if
-/// no apex sees all of the surface from inside, so that parts were left out; Flat if nothing was appended.
+/// (outwards, or all inwards, which is mended). \returns Good; Inverted if they turned inwards and `expectOutward`;
+/// Folded if no apex sees all of the surface from inside, so that parts were left out; Flat if nothing was appended.
 CellVerdict coneDecomposition(const std::vector<glm::dvec3>& points, std::vector<Triangle>& surface, bool expectOutward,
                               ConeOutput& out);
 

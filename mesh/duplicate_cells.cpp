@@ -36,8 +36,8 @@ Tetrahedron sortedPoints(Tetrahedron cell) {
 }  // namespace
 
 std::vector<std::uint8_t> findDuplicateCells(const std::vector<Tetrahedron>& cells, std::size_t pointCount) {
-    // Places go with the smallest point, because neighbours in the list are neighbours in space: a place at random would miss the
-    // caches, which costs ten times as much.
+    // Places go with the smallest point, because neighbours in the list are neighbours in space: a place at random
+    // would miss the caches, which costs ten times as much.
     constexpr std::uint64_t placesPerPoint = 128;
     const auto candidates = collisionCandidates(
         cells.size(), [&](std::size_t i) { return pointsHash(cells[i]); }, placesPerPoint * pointCount,

@@ -14,7 +14,8 @@ Triangle sorted(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     return t;
 }
 
-/// The polygon from its smallest number on, in the direction of the smaller neighbour. \returns whether it was reversed.
+/// The polygon from its smallest number on, in the direction of the smaller neighbour. \returns whether it was
+/// reversed.
 bool makeCanonical(std::vector<std::uint32_t>& polygon) {
     std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
     if (polygon.back() >= polygon[1]) {
@@ -72,7 +73,8 @@ FaceTriangulation::FaceTriangulation(const CellSoup& soup, const std::vector<Cel
         return;
     }
     for (std::size_t cell = 0; cell < verdicts.size(); ++cell) {
-        if (!isKept(verdicts[cell]) || soup.types[cell] == cell_type::hexahedron || soup.types[cell] == cell_type::voxel) {
+        if (!isKept(verdicts[cell]) || soup.types[cell] == cell_type::hexahedron ||
+            soup.types[cell] == cell_type::voxel) {
             continue;
         }
         forEachFace(soup, cell, [&](std::span<const std::uint32_t> face) {
@@ -106,7 +108,8 @@ std::size_t FaceTriangulation::fanRoot(std::span<const std::uint32_t> polygon) c
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         ascending.push_back(i);
     }
-    std::sort(ascending.begin(), ascending.end(), [&](std::size_t a, std::size_t b) { return polygon[a] < polygon[b]; });
+    std::sort(ascending.begin(), ascending.end(),
+              [&](std::size_t a, std::size_t b) { return polygon[a] < polygon[b]; });
     for (const double least : {collinear, -collinear}) {
         for (const std::size_t root : ascending) {
             if (smallestShare(points_, polygon, root, normal) > least) {

@@ -48,7 +48,8 @@ void checkBeginning(const std::string& source, std::initializer_list<std::string
     in.read(head.data(), static_cast<std::streamsize>(head.size()));
     head.resize(static_cast<std::size_t>(in.gcount()));
     if (std::none_of(beginnings.begin(), beginnings.end(), [&](std::string_view b) { return head.starts_with(b); })) {
-        throw std::runtime_error(fmt::format("{}: does not begin as {} does; check the name's ending or write the file again", source, what));
+        throw std::runtime_error(fmt::format(
+            "{}: does not begin as {} does; check the name's ending or write the file again", source, what));
     }
 }
 

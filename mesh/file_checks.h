@@ -13,8 +13,8 @@ bool hasExtension(const std::string& source, std::initializer_list<const char*> 
 /// \throws std::runtime_error naming `source` if it does not exist, is a directory, is empty or may not be read.
 void checkReadable(const std::string& source);
 
-/// \throws std::runtime_error as `checkReadable` does, or if the file begins with none of `beginnings`; `what` names the format.
-/// Readers that take long over anything else are spared it.
+/// \throws std::runtime_error as `checkReadable` does, or if the file begins with none of `beginnings`; `what` names
+/// the format. Readers that take long over anything else are spared it.
 void checkBeginning(const std::string& source, std::initializer_list<std::string_view> beginnings, const char* what);
 
 }  // namespace tetralux::mesh

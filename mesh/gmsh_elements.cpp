@@ -20,7 +20,9 @@ constexpr std::array<int, n> inOrder() {
 }
 
 constexpr auto same = inOrder<27>();
-constexpr std::span<const int> first(std::size_t count) { return std::span<const int>(same).first(count); }
+constexpr std::span<const int> first(std::size_t count) {
+    return std::span<const int>(same).first(count);
+}
 
 constexpr std::array tet10{0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
 constexpr std::array hex20{0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15};

@@ -13,10 +13,12 @@ namespace tetralux::mesh {
 void addGridCells(CellSoup& soup, const std::array<std::size_t, 3>& points, std::uint8_t type) {
     const auto [nx, ny, nz] = points;
     if (nx < 2 || ny < 2 || nz < 2) {
-        throw std::runtime_error(fmt::format("a grid of {} x {} x {} points has no volume; give one of at least 2 x 2 x 2", nx, ny, nz));
+        throw std::runtime_error(
+            fmt::format("a grid of {} x {} x {} points has no volume; give one of at least 2 x 2 x 2", nx, ny, nz));
     }
     if (nx > CellSoup::invalidPoint / ny / nz) {
-        throw std::runtime_error(fmt::format("a grid of {} x {} x {} points is more than 32 bits can number; take a part of it", nx, ny, nz));
+        throw std::runtime_error(fmt::format(
+            "a grid of {} x {} x {} points is more than 32 bits can number; take a part of it", nx, ny, nz));
     }
     const std::size_t cells = (nx - 1) * (ny - 1) * (nz - 1);
     soup.types.assign(cells, type);

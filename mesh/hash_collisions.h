@@ -19,7 +19,8 @@ namespace tetralux::mesh {
 /// One bit for each of `places`, set by many threads.
 class SharedBits {
 public:
-    explicit SharedBits(std::size_t places) : words_(std::make_unique<std::atomic<std::uint64_t>[]>((places + 63) / 64)) {}
+    explicit SharedBits(std::size_t places)
+        : words_(std::make_unique<std::atomic<std::uint64_t>[]>((places + 63) / 64)) {}
     /// \returns whether the bit was set before.
     bool set(std::uint64_t place) {
         const std::uint64_t bit = std::uint64_t{1} << (place & 63);
@@ -33,12 +34,13 @@ private:
     std::unique_ptr<std::atomic<std::uint64_t>[]> words_;
 };
 
-/// Hash and number of every item that may equal another one, sorted by hash and then number: most of the items that equal no
-/// other are not among them. Equal items must have equal hashes and equal places; the fewer others share a place (of which
-/// there are `places`, two bits of memory each) and the nearer those of successive items lie, the faster it is.
+/// Hash and number of every item that may equal another one, sorted by hash and then number: most of the items that
+/// equal no other are not among them. Equal items must have equal hashes and equal places; the fewer others share a
+/// place (of which there are `places`, two bits of memory each) and the nearer those of successive items lie, the
+/// faster it is.
 template <class HashOf, class PlaceOf>
-std::vector<std::pair<std::uint64_t, std::uint32_t>> collisionCandidates(std::size_t count, const HashOf& hashOf, std::size_t places,
-                                                                         const PlaceOf& placeOf) {
+std::vector<std::pair<std::uint64_t, std::uint32_t>> collisionCandidates(std::size_t count, const HashOf& hashOf,
+                                                                         std::size_t places, const PlaceOf& placeOf) {
     using Range = tbb::blocked_range<std::size_t>;
     constexpr std::size_t chunk = 65536;
     SharedBits seen(places);

@@ -2,8 +2,8 @@
 /// \file
 /// Third-party readers in a process of their own.
 ///
-/// VTK's readers trust their input: a flipped bit makes some of them read outside their arrays, run on without end, or ask
-/// for all memory, and the libraries below them print to standard error. So such a reader runs in a forked child
+/// VTK's readers trust their input: a flipped bit makes some of them read outside their arrays, run on without end, or
+/// ask for all memory, and the libraries below them print to standard error. So such a reader runs in a forked child
 /// that has a time limit, a memory limit and no output, and only the checked-for-size arrays come back. As a welcome
 /// side effect none of the reader's memory outlives it.
 #pragma once

@@ -10,8 +10,8 @@
 #include <unordered_map>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
 
 #include <mesh/hash_collisions.h>
 #include <mesh/orientation.h>
@@ -153,7 +153,8 @@ Representatives searchExactly(const CellSoup& soup, MeshReport& report) {
 
 Representatives searchWithin(const CellSoup& soup, double tolerance, MeshReport& report) {
     if (!(tolerance >= 0.0) || !std::isfinite(tolerance)) {
-        throw std::runtime_error(fmt::format("merge tolerance {}: is no length; give 0 or a small number of mesh units", tolerance));
+        throw std::runtime_error(
+            fmt::format("merge tolerance {}: is no length; give 0 or a small number of mesh units", tolerance));
     }
     ToleranceGrid grid(soup, tolerance);
     Representatives representatives(soup.points.size());
@@ -169,7 +170,8 @@ Representatives searchWithin(const CellSoup& soup, double tolerance, MeshReport&
 }  // namespace
 
 void mergeCoincidentPoints(CellSoup& soup, std::optional<double> tolerance, MeshReport& report) {
-    const Representatives representatives = tolerance ? searchWithin(soup, *tolerance, report) : searchExactly(soup, report);
+    const Representatives representatives =
+        tolerance ? searchWithin(soup, *tolerance, report) : searchExactly(soup, report);
     std::uint64_t merged = 0;
     for (std::uint32_t p = 0; p < representatives.size(); ++p) {
         merged += representatives[p] != p ? 1 : 0;

@@ -11,8 +11,8 @@
 namespace tetralux::mesh {
 
 struct MeshFormat {
-    const char* name;     ///< for people: "VTK XML"
-    const char* sources;  ///< what to give, for error messages: ".vtu .pvtu"
+    const char* name;                            ///< for people: "VTK XML"
+    const char* sources;                         ///< what to give, for error messages: ".vtu .pvtu"
     bool (*accepts)(const std::string& source);  ///< by the name alone, without opening anything
     /// \throws std::runtime_error naming the source, what is wrong and what would mend it.
     CellSoup (*read)(const std::string& source, const ReadOptions& options);

@@ -41,8 +41,8 @@ struct MeshReport {
     std::uint64_t cellsRead = 0;                     ///< cells of the source, of any type
     std::map<std::string, std::uint64_t> cellTypes;  ///< source cells by type name
     std::map<Defect, DefectCount> defects;
-    std::uint64_t pointsMerged = 0;                  ///< points that an equal one stands for
-    std::map<std::string, std::uint64_t> skipped;    ///< tetrahedra (or source cells) left out, by reason
+    std::uint64_t pointsMerged = 0;                ///< points that an equal one stands for
+    std::map<std::string, std::uint64_t> skipped;  ///< tetrahedra (or source cells) left out, by reason
 
     void add(Defect defect, std::uint64_t where);
 };

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
+#include <glm/geometric.hpp>
 
 #include <mesh/adjacency.h>
 #include <mesh/point_face_search.h>
@@ -84,8 +84,9 @@ VolumeSums sumVolumes(const TetMesh& mesh) {
         [&](const Range& range, VolumeSums sums) {
             for (std::size_t i = range.begin(); i != range.end(); ++i) {
                 const Tetrahedron& t = mesh.cells[i];
-                const double volume = sixVolumes(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]],
-                                                 mesh.positions[t[3]]) / 6.0;
+                const double volume =
+                    sixVolumes(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]], mesh.positions[t[3]]) /
+                    6.0;
                 sums.sum += volume;
                 sums.smallest = std::min(sums.smallest, volume);
                 sums.largest = std::max(sums.largest, volume);
@@ -107,7 +108,9 @@ bool isOutsideCircumsphere(const TetMesh& mesh, const Tetrahedron& cell, const g
         lift[k] = glm::dot(r[k], r[k]);
     }
     // Shewchuk's insphere, which is negative for a point inside in our orientation of the cell.
-    const auto det = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) { return glm::dot(glm::cross(a, b), c); };
+    const auto det = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        return glm::dot(glm::cross(a, b), c);
+    };
     const std::array<double, 4> terms{lift[0] * det(r[1], r[2], r[3]), -lift[1] * det(r[0], r[2], r[3]),
                                       lift[2] * det(r[0], r[1], r[3]), -lift[3] * det(r[0], r[1], r[2])};
     double size = 0.0;
@@ -129,7 +132,8 @@ std::uint64_t countDelaunayFaces(const TetMesh& mesh, const Adjacency& adjacency
                     }
                     const auto& back = adjacency.neighbours[other];
                     const auto face = static_cast<std::size_t>(std::find(back.begin(), back.end(), i) - back.begin());
-                    count += isOutsideCircumsphere(mesh, mesh.cells[i], mesh.positions[mesh.cells[other][face]]) ? 1 : 0;
+                    count +=
+                        isOutsideCircumsphere(mesh, mesh.cells[i], mesh.positions[mesh.cells[other][face]]) ? 1 : 0;
                 }
             }
             return count;
@@ -206,8 +210,8 @@ bool liesOn(const glm::dvec3& x, const PointFaceSearch::Corners& t, double reach
     return true;
 }
 
-/// Boundary faces that another boundary face lies against from the other side, found by their centroids: the two do not have
-/// the same points, or adjacency would have joined them.
+/// Boundary faces that another boundary face lies against from the other side, found by their centroids: the two do not
+/// have the same points, or adjacency would have joined them.
 void findNonConforming(const BoundaryFaces& faces, MeshStatistics& result) {
     const PointFaceSearch search(faces.triangles);
     const double scale = std::max({glm::length(result.bounds.low), glm::length(result.bounds.high)});
@@ -220,7 +224,8 @@ void findNonConforming(const BoundaryFaces& faces, MeshStatistics& result) {
         const double reach = std::min(1e-3 * edge, 1e-6 * edge + 1e-7 * scale);  // positions may have been floats
         search.forEachNear(centroid, reach, [&](std::uint32_t other) {
             const PointFaceSearch::Corners& t = faces.triangles[other];
-            if (other != i && glm::dot(normal, glm::cross(t[1] - t[0], t[2] - t[0])) < 0.0 && liesOn(centroid, t, reach)) {
+            if (other != i && glm::dot(normal, glm::cross(t[1] - t[0], t[2] - t[0])) < 0.0 &&
+                liesOn(centroid, t, reach)) {
                 std::atomic_ref<std::uint8_t>(marked[i]).store(1, std::memory_order_relaxed);
                 std::atomic_ref<std::uint8_t>(marked[other]).store(1, std::memory_order_relaxed);
             }
@@ -264,7 +269,8 @@ MeshStatistics meshStatistics(const TetMesh& mesh) {
     const Adjacency adjacency = buildAdjacency(mesh.cells, mesh.positions.size());
     result.boundaryFaces = adjacency.boundaryFaces;
     for (const auto& neighbours : adjacency.neighbours) {
-        result.innerFaces += static_cast<std::uint64_t>(4 - std::count(neighbours.begin(), neighbours.end(), Adjacency::noNeighbour));
+        result.innerFaces +=
+            static_cast<std::uint64_t>(4 - std::count(neighbours.begin(), neighbours.end(), Adjacency::noNeighbour));
     }
     result.innerFaces /= 2;
     if (adjacency.nonManifoldFaces > 0) {

@@ -23,22 +23,22 @@ struct FieldStatistics {
     double low = 0.0, high = 0.0, mean = 0.0;  ///< of the finite values; zeros if there is none
     std::uint64_t values = 0;                  ///< points or cells
     std::uint64_t nonFinite = 0;
-    std::vector<std::uint64_t> histogram;      ///< 64 equal classes from low to high; empty if low == high
+    std::vector<std::uint64_t> histogram;  ///< 64 equal classes from low to high; empty if low == high
 };
 
 struct MeshStatistics {
     std::uint64_t points = 0, cells = 0;
-    BoundingBox bounds;                             ///< mesh units
-    double volume = 0.0;                            ///< sum over cells, mesh units cubed
+    BoundingBox bounds;   ///< mesh units
+    double volume = 0.0;  ///< sum over cells, mesh units cubed
     double smallestVolume = 0.0, largestVolume = 0.0;
     std::uint64_t innerFaces = 0, boundaryFaces = 0;
-    std::uint64_t delaunayFaces = 0;                ///< inner faces with neither opposite point inside the other cell's circumsphere
-    std::uint64_t components = 0;                   ///< sets of cells connected through faces
-    std::uint64_t largestComponent = 0;             ///< its cells
-    /// Non-manifold faces, overlapping cells, and boundary faces that lie against another boundary face without being the same
-    /// (hanging nodes, quadrilaterals cut along different diagonals); places are cells of the mesh.
+    std::uint64_t delaunayFaces = 0;  ///< inner faces with neither opposite point inside the other cell's circumsphere
+    std::uint64_t components = 0;     ///< sets of cells connected through faces
+    std::uint64_t largestComponent = 0;  ///< its cells
+    /// Non-manifold faces, overlapping cells, and boundary faces that lie against another boundary face without being
+    /// the same (hanging nodes, quadrilaterals cut along different diagonals); places are cells of the mesh.
     std::map<Defect, DefectCount> defects;
-    std::uint64_t memoryBytes = 0;                  ///< of the mesh's arrays
+    std::uint64_t memoryBytes = 0;  ///< of the mesh's arrays
     std::vector<FieldStatistics> fields;
 
     /// Share of inner faces that are Delaunay; 1 without inner faces.

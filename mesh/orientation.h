@@ -11,7 +11,9 @@
 
 namespace tetralux::mesh {
 
-inline bool isFinitePosition(const glm::dvec3& x) { return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z); }
+inline bool isFinitePosition(const glm::dvec3& x) {
+    return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
+}
 
 /// 1 if det(b − a, c − a, d − a) is certainly positive, −1 if certainly negative, 0 if it is zero, not finite or
 /// within the roundoff of its own computation (Shewchuk 1997, bound A of orient3d, widened for three more roundings).

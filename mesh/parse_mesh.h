@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// The formats that we parse ourselves, from their bytes: what the readers call and what the fuzzers feed. Each throws a
-/// std::runtime_error that names `source`, what is wrong and what would mend it, and never trusts a number in the bytes.
+/// The formats that we parse ourselves, from their bytes: what the readers call and what the fuzzers feed. Each throws
+/// a std::runtime_error that names `source`, what is wrong and what would mend it, and never trusts a number in the
+/// bytes.
 #pragma once
 
 #include <optional>
@@ -12,15 +13,16 @@
 
 namespace tetralux::mesh {
 
-/// Gmsh MSH 2.x and 4.1, ascii and binary, with $NodeData and $ElementData at the step nearest to `time`. Cells of an order above
-/// two are taken by their corners.
+/// Gmsh MSH 2.x and 4.1, ascii and binary, with $NodeData and $ElementData at the step nearest to `time`. Cells of an
+/// order above two are taken by their corners.
 CellSoup parseGmsh(std::string_view bytes, const std::string& source, std::optional<double> time);
 
 /// MEDIT .mesh text, versions 1 to 4.
 CellSoup parseMeditText(std::string_view bytes, const std::string& source);
 /// MEDIT .meshb, either byte order, versions 1 to 4.
 CellSoup parseMeditBinary(std::string_view bytes, const std::string& source);
-/// Adds the solutions of a .sol text at the vertices of `soup` as point fields "solution", or "solution 1", … for several.
+/// Adds the solutions of a .sol text at the vertices of `soup` as point fields "solution", or "solution 1", … for
+/// several.
 void parseMeditSolution(std::string_view bytes, const std::string& source, CellSoup& soup);
 
 /// TetGen .node and .ele; attributes become fields "attribute" or "attribute 1", …, regions the cell field "region".

@@ -6,7 +6,9 @@
 namespace tetralux::mesh {
 namespace {
 
-std::uint64_t firstTerm(const PointBlends& blends, std::size_t i) { return i == 0 ? 0 : blends.ends[i - 1]; }
+std::uint64_t firstTerm(const PointBlends& blends, std::size_t i) {
+    return i == 0 ? 0 : blends.ends[i - 1];
+}
 
 }  // namespace
 

@@ -39,10 +39,13 @@ void PointFaceSearch::build(std::uint32_t node, std::uint32_t first, std::uint32
     }
     const glm::dvec3 size = high - low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto key = [&](std::uint32_t t) { return triangles[t][0][axis] + triangles[t][1][axis] + triangles[t][2][axis]; };
+    const auto key = [&](std::uint32_t t) {
+        return triangles[t][0][axis] + triangles[t][1][axis] + triangles[t][2][axis];
+    };
     const auto begin = order_.begin() + first;
     const std::uint32_t half = count / 2;
-    std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    std::nth_element(begin, begin + half, begin + count,
+                     [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
     const std::uint32_t child = static_cast<std::uint32_t>(nodes_.size());
     nodes_[node] = {low, high, child, 0};
     nodes_.emplace_back();

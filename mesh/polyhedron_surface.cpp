@@ -24,10 +24,9 @@ std::vector<DirectedEdge> sortedEdges(const std::vector<std::vector<std::uint32_
             edges.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(f), a < b});
         }
     }
-    std::sort(edges.begin(), edges.end(),
-              [](const DirectedEdge& x, const DirectedEdge& y) {
-                  return std::tie(x.low, x.high, x.face) < std::tie(y.low, y.high, y.face);
-              });
+    std::sort(edges.begin(), edges.end(), [](const DirectedEdge& x, const DirectedEdge& y) {
+        return std::tie(x.low, x.high, x.face) < std::tie(y.low, y.high, y.face);
+    });
     return edges;
 }
 

@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
+#include <glm/geometric.hpp>
 
 namespace tetralux::mesh {
 namespace {
@@ -80,8 +80,7 @@ double largestOnGrid(const BoundingBox& box, int n, const std::function<double(c
 ProceduralField buckyField(int n) {
     ProceduralField field{"bucky", "density", {glm::dvec3(0.0), glm::dvec3(1.0)}, {}, {}};
     const Atoms atoms = fullereneAtoms();
-    const double largest =
-        largestOnGrid(field.domain, n, [&](const glm::dvec3& x) { return fullereneSum(atoms, x); });
+    const double largest = largestOnGrid(field.domain, n, [&](const glm::dvec3& x) { return fullereneSum(atoms, x); });
     field.value = [atoms, largest](const glm::dvec3& x) { return fullereneSum(atoms, x) / largest; };
     field.gradient = [atoms, largest](const glm::dvec3& x) {
         glm::dvec3 sum(0.0);
@@ -141,8 +140,7 @@ ProceduralField marschnerLobbField(int) {
         const double scale = 1.0 / (2.0 * (1.0 + alpha));
         // dρ_r/dr divided by r; sin(πr/2)/r tends to π/2 on the axis.
         const double sineOverR = r > 0.0 ? std::sin(0.5 * pi * r) / r : 0.5 * pi;
-        const double radial =
-            std::sin(2.0 * pi * frequency * std::cos(0.5 * pi * r)) * pi * pi * frequency * sineOverR;
+        const double radial = std::sin(2.0 * pi * frequency * std::cos(0.5 * pi * r)) * pi * pi * frequency * sineOverR;
         return scale * glm::dvec3(alpha * radial * x.x, alpha * radial * x.y, -0.5 * pi * std::cos(0.5 * pi * x.z));
     };
     return field;
@@ -187,8 +185,8 @@ constexpr std::array<Generator, 4> generators{{{"bucky", buckyField},
 
 void checkGridSize(const std::string& name, int n) {
     if (n < 2 || n > 1000) {
-        throw std::runtime_error(
-            fmt::format("{}:{}: a generated mesh has 2 to 1000 points per edge; give a size such as {}:32", name, n, name));
+        throw std::runtime_error(fmt::format(
+            "{}:{}: a generated mesh has 2 to 1000 points per edge; give a size such as {}:32", name, n, name));
     }
     const double edge = n - 1;
     if (5.0 * edge * edge * edge >= 4294967295.0) {

@@ -14,9 +14,9 @@ namespace tetralux::mesh {
 
 /// A scalar field given by formula on a cube; `value` in scalar units, `gradient` in scalar units per mesh unit.
 struct ProceduralField {
-    std::string name;        ///< "bucky", "coulomb", "marschner-lobb", "hydrogen"
-    std::string fieldName;   ///< name of the point field: "density", …
-    BoundingBox domain;      ///< mesh units
+    std::string name;       ///< "bucky", "coulomb", "marschner-lobb", "hydrogen"
+    std::string fieldName;  ///< name of the point field: "density", …
+    BoundingBox domain;     ///< mesh units
     std::function<double(const glm::dvec3&)> value;
     std::function<glm::dvec3(const glm::dvec3&)> gradient;
 };
@@ -30,7 +30,10 @@ ProceduralField proceduralField(const std::string& name, int n);
 TetMesh sampleOnGrid(const ProceduralField& field, int n);
 
 /// Splits "bucky:32" into name and size; nothing if `source` is not of that form with a known name.
-struct ProceduralSource { std::string name; int n; };
+struct ProceduralSource {
+    std::string name;
+    int n;
+};
 std::optional<ProceduralSource> parseProceduralSource(const std::string& source);
 
 std::vector<std::string> proceduralFieldNames();

@@ -10,10 +10,17 @@
 namespace tetralux::mesh {
 namespace {
 
-bool acceptsCgns(const std::string& source) { return hasExtension(source, {".cgns"}); }
+bool acceptsCgns(const std::string& source) {
+    return hasExtension(source, {".cgns"});
+}
 
 CellSoup readCgns(const std::string& source, const ReadOptions& options) {
-    checkBeginning(source, {"@(#)ADF", "\xc0\xa8\xa3\xa9" "ADF", "\x89HDF"}, "a CGNS file (ADF or HDF5)");
+    checkBeginning(source,
+                   {"@(#)ADF",
+                    "\xc0\xa8\xa3\xa9"
+                    "ADF",
+                    "\x89HDF"},
+                   "a CGNS file (ADF or HDF5)");
     return readIsolated(source, [&] {
         captureVtkMessages();
         vtkNew<vtkCGNSReader> reader;

@@ -10,7 +10,9 @@
 namespace tetralux::mesh {
 namespace {
 
-bool acceptsEnsight(const std::string& source) { return hasExtension(source, {".case", ".encas"}); }
+bool acceptsEnsight(const std::string& source) {
+    return hasExtension(source, {".case", ".encas"});
+}
 
 CellSoup readEnsight(const std::string& source, const ReadOptions& options) {
     checkReadable(source);

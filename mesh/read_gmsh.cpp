@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Gmsh's MSH format as its reference manual describes it (versions 2.2 and 4.1). Gmsh's own library is GPL and would make
-/// the renderer so.
+/// Gmsh's MSH format as its reference manual describes it (versions 2.2 and 4.1). Gmsh's own library is GPL and would
+/// make the renderer so.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -65,7 +65,8 @@ private:
         binary_ = scan_.integer("the kind of file") != 0;
         const std::int64_t size = scan_.integer("the size of a number");
         if (size != 8) {
-            scan_.refuse(fmt::format("has numbers of {} bytes where 8 can be read", size), "save it on a 64-bit machine");
+            scan_.refuse(fmt::format("has numbers of {} bytes where 8 can be read", size),
+                         "save it on a 64-bit machine");
         }
         if (binary_) {
             scan_.restOfLine();
@@ -187,7 +188,8 @@ private:
     GmshElement knownElement(std::int64_t type) {
         const GmshElement element = gmshElement(type >= 0 && type < 1000 ? static_cast<int>(type) : 0);
         if (element.points == 0) {
-            scan_.refuse(fmt::format("has elements of Gmsh's type {}, which is not known", type), "save it with order 2 or less");
+            scan_.refuse(fmt::format("has elements of Gmsh's type {}, which is not known", type),
+                         "save it with order 2 or less");
         }
         return element;
     }
@@ -298,7 +300,8 @@ private:
         for (std::size_t i = 0; i < views_.size(); ++i) {
             const auto [place, isNew] = chosen.try_emplace({views_[i].association, views_[i].name}, i);
             times[views_[i].time] = 0;
-            if (!isNew && wanted && std::abs(views_[i].time - *wanted) < std::abs(views_[place->second].time - *wanted)) {
+            if (!isNew && wanted &&
+                std::abs(views_[i].time - *wanted) < std::abs(views_[place->second].time - *wanted)) {
                 place->second = i;
             }
         }
@@ -345,7 +348,9 @@ private:
     std::vector<View> views_;
 };
 
-bool acceptsGmsh(const std::string& source) { return hasExtension(source, {".msh"}); }
+bool acceptsGmsh(const std::string& source) {
+    return hasExtension(source, {".msh"});
+}
 
 CellSoup readGmsh(const std::string& source, const ReadOptions& options) {
     return parseGmsh(readWholeFile(source), source, options.time);

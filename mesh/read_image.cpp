@@ -11,7 +11,9 @@
 namespace tetralux::mesh {
 namespace {
 
-bool acceptsImage(const std::string& source) { return hasExtension(source, {".nrrd", ".nhdr", ".mha", ".mhd"}); }
+bool acceptsImage(const std::string& source) {
+    return hasExtension(source, {".nrrd", ".nhdr", ".mha", ".mhd"});
+}
 
 CellSoup readImage(const std::string& source, const ReadOptions&) {
     checkReadable(source);

@@ -36,7 +36,7 @@ constexpr int binaryEnd = 54;
 /// Points count from 1. Prisms run the other way round than VTK's, which decomposition does not mind.
 std::uint32_t pointNumber(std::int64_t id) {
     return id < 1 || id > static_cast<std::int64_t>(CellSoup::invalidPoint) ? CellSoup::invalidPoint
-                                                                             : static_cast<std::uint32_t>(id - 1);
+                                                                            : static_cast<std::uint32_t>(id - 1);
 }
 
 void parseVertices(TextScanner& scan, CellSoup& soup) {
@@ -64,17 +64,18 @@ void parseCells(TextScanner& scan, const CellKeyword& keyword, CellSoup& soup, s
     }
 }
 
-
 void checkDimension(TextScanner& scan, std::int64_t dimension) {
     if (dimension != 3) {
-        scan.refuse(fmt::format("has dimension {}, which holds no solid cells", dimension), "give a mesh of dimension 3");
+        scan.refuse(fmt::format("has dimension {}, which holds no solid cells", dimension),
+                    "give a mesh of dimension 3");
     }
 }
 
 /// Fixed-size numbers out of bytes of either order.
 class BinaryScanner {
 public:
-    BinaryScanner(std::string_view bytes, const std::string& source) : scan_(bytes, source, '\0'), all_(bytes), source_(source) {
+    BinaryScanner(std::string_view bytes, const std::string& source)
+        : scan_(bytes, source, '\0'), all_(bytes), source_(source) {
         const auto code = take<std::int32_t>("the byte order");
         swap_ = code != 1;
         if (swap_ && code != 0x01000000) {
@@ -96,7 +97,9 @@ public:
     std::int64_t takePlace(const char* what) {
         return version_ >= 3 ? take<std::int64_t>(what) : take<std::int32_t>(what);
     }
-    double takeReal(const char* what) { return version_ == 1 ? static_cast<double>(take<float>(what)) : take<double>(what); }
+    double takeReal(const char* what) {
+        return version_ == 1 ? static_cast<double>(take<float>(what)) : take<double>(what);
+    }
     std::size_t takeCount(const char* what, std::size_t bytesEach) {
         const std::int64_t count = takeInteger(what);
         if (count < 0 || static_cast<std::uint64_t>(count) > scan_.remaining() / bytesEach) {
@@ -119,7 +122,8 @@ public:
 
     [[noreturn]] void fail(const std::string& what) const {
         throw std::runtime_error(
-            fmt::format("{}: byte {}: {}; the file is probably truncated or damaged: write it again", source_, scan_.position(), what));
+            fmt::format("{}: byte {}: {}; the file is probably truncated or damaged: write it again", source_,
+                        scan_.position(), what));
     }
 
 private:
@@ -142,7 +146,8 @@ void takeBinarySection(BinaryScanner& scan, int keyword, CellSoup& soup, std::ve
             scan.takeInteger("the reference of a vertex");
         }
     }
-    const auto cells = std::find_if(cellKeywords.begin(), cellKeywords.end(), [&](const CellKeyword& k) { return k.binary == keyword; });
+    const auto cells = std::find_if(cellKeywords.begin(), cellKeywords.end(),
+                                    [&](const CellKeyword& k) { return k.binary == keyword; });
     if (cells != cellKeywords.end()) {
         const std::size_t count = scan.takeCount("the number of cells", (cells->points + 1) * scan.integerSize());
         std::array<std::uint32_t, 8> ids{};
@@ -156,7 +161,9 @@ void takeBinarySection(BinaryScanner& scan, int keyword, CellSoup& soup, std::ve
     }
 }
 
-bool acceptsMedit(const std::string& source) { return hasExtension(source, {".mesh", ".meshb"}); }
+bool acceptsMedit(const std::string& source) {
+    return hasExtension(source, {".mesh", ".meshb"});
+}
 
 CellSoup readMedit(const std::string& source, const ReadOptions&) {
     const std::string bytes = readWholeFile(source);
@@ -180,7 +187,8 @@ CellSoup parseMeditText(std::string_view bytes, const std::string& source) {
     std::vector<double> references;
     while (!scan.atEnd()) {
         const std::string_view word = scan.word("a keyword");
-        const auto cells = std::find_if(cellKeywords.begin(), cellKeywords.end(), [&](const CellKeyword& k) { return word == k.text; });
+        const auto cells = std::find_if(cellKeywords.begin(), cellKeywords.end(),
+                                        [&](const CellKeyword& k) { return word == k.text; });
         if (word == "End") {
             break;
         }
@@ -239,7 +247,8 @@ void parseMeditSolution(std::string_view bytes, const std::string& source, CellS
     for (std::size_t i = 0; i < solutions; ++i) {
         const std::int64_t kind = scan.integer("the kind of a solution");
         if (kind < 1 || kind > 3) {
-            scan.fail(fmt::format("has a solution of kind {} where 1 (scalar), 2 (vector), 3 (tensor) are known", kind));
+            scan.fail(
+                fmt::format("has a solution of kind {} where 1 (scalar), 2 (vector), 3 (tensor) are known", kind));
         }
         Field field;
         field.name = solutions == 1 ? "solution" : fmt::format("solution {}", i + 1);

@@ -16,18 +16,8 @@ namespace {
 
 // One line per format; the first that accepts a source reads it.
 const std::array formats{
-    &vtkXmlFormat,
-    &legacyVtkFormat,
-    &pvdFormat,
-    &exodusFormat,
-    &cgnsFormat,
-    &ensightFormat,
-    &openFoamFormat,
-    &imageFormat,
-    &rawFormat,
-    &gmshFormat,
-    &meditFormat,
-    &tetgenFormat,
+    &vtkXmlFormat,   &legacyVtkFormat, &pvdFormat, &exodusFormat, &cgnsFormat,  &ensightFormat,
+    &openFoamFormat, &imageFormat,     &rawFormat, &gmshFormat,   &meditFormat, &tetgenFormat,
 };
 
 std::string knownSources() {

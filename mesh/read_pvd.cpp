@@ -19,7 +19,9 @@
 namespace tetralux::mesh {
 namespace {
 
-bool acceptsPvd(const std::string& source) { return hasExtension(source, {".pvd"}); }
+bool acceptsPvd(const std::string& source) {
+    return hasExtension(source, {".pvd"});
+}
 
 struct Part {
     double time;
@@ -64,7 +66,8 @@ CellSoup readCollectionAt(const std::string& source, std::optional<double> time)
             const std::filesystem::path file = std::filesystem::path(source).parent_path() / part.file;
             std::error_code failed;
             if (!std::filesystem::is_regular_file(file, failed)) {
-                throw std::runtime_error(fmt::format("names {}, which is not there; put it beside the collection", part.file));
+                throw std::runtime_error(
+                    fmt::format("names {}, which is not there; put it beside the collection", part.file));
             }
             vtkNew<vtkXMLGenericDataObjectReader> reader;
             reader->SetFileName(file.c_str());

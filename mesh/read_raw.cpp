@@ -54,7 +54,8 @@ struct RawSource {
 /// What `source` says of its size, if it is a raw file at all; size 0 when it says nothing.
 std::optional<RawSource> parseRawSource(const std::string& source) {
     static const std::regex behind(R"((.*\.raw):(\d{1,6})x(\d{1,6})x(\d{1,6})(?::([a-z]+\d*))?)", std::regex::icase);
-    static const std::regex within(R"(.*[_.-](\d{1,6})x(\d{1,6})x(\d{1,6})(?:[_.-]([a-z]+\d*))?\.raw)", std::regex::icase);
+    static const std::regex within(R"(.*[_.-](\d{1,6})x(\d{1,6})x(\d{1,6})(?:[_.-]([a-z]+\d*))?\.raw)",
+                                   std::regex::icase);
     std::smatch found;
     RawSource raw;
     std::size_t group = 2;
@@ -93,23 +94,27 @@ const ValueType& findType(const RawSource& raw, std::size_t bytes) {
             if (type.size * values == bytes) {
                 return type;
             }
-            throw std::runtime_error(fmt::format("{}: has {} bytes where {}x{}x{} values of {} bytes are {}; give its size and type as in {}:64x64x64:uint8",
-                                                 raw.path, bytes, raw.size[0], raw.size[1], raw.size[2], type.size,
-                                                 type.size * values, raw.path));
+            throw std::runtime_error(fmt::format(
+                "{}: has {} bytes where {}x{}x{} values of {} bytes are {}; give its size and type as in "
+                "{}:64x64x64:uint8",
+                raw.path, bytes, raw.size[0], raw.size[1], raw.size[2], type.size, type.size * values, raw.path));
         }
     }
-    throw std::runtime_error(fmt::format("{}: has {} bytes, which fits no type of {} values; give its size and type as in {}:64x64x64:uint8", raw.path,
-                                         bytes, values, raw.path));
+    throw std::runtime_error(
+        fmt::format("{}: has {} bytes, which fits no type of {} values; give its size and type as in {}:64x64x64:uint8",
+                    raw.path, bytes, values, raw.path));
 }
 
-bool acceptsRaw(const std::string& source) { return source.size() < 4096 && parseRawSource(source).has_value(); }
+bool acceptsRaw(const std::string& source) {
+    return source.size() < 4096 && parseRawSource(source).has_value();
+}
 
 CellSoup readRaw(const std::string& source, const ReadOptions&) {
     const RawSource raw = *parseRawSource(source);
     checkReadable(raw.path);
     if (raw.size[0] == 0) {
-        throw std::runtime_error(
-            fmt::format("{}: bare values need a size; put it behind the name as in {}:64x64x64:uint8", raw.path, raw.path));
+        throw std::runtime_error(fmt::format(
+            "{}: bare values need a size; put it behind the name as in {}:64x64x64:uint8", raw.path, raw.path));
     }
     const std::string bytes = readWholeFile(raw.path);
     const ValueType& type = findType(raw, bytes.size());

@@ -79,7 +79,9 @@ void parseElements(TextScanner& scan, std::int64_t firstPoint, CellSoup& soup) {
     }
 }
 
-bool acceptsTetgen(const std::string& source) { return hasExtension(source, {".node", ".ele"}); }
+bool acceptsTetgen(const std::string& source) {
+    return hasExtension(source, {".node", ".ele"});
+}
 
 CellSoup readTetgen(const std::string& source, const ReadOptions&) {
     const std::string stem = source.substr(0, source.rfind('.'));

@@ -10,7 +10,9 @@
 namespace tetralux::mesh {
 namespace {
 
-bool acceptsLegacyVtk(const std::string& source) { return hasExtension(source, {".vtk"}); }
+bool acceptsLegacyVtk(const std::string& source) {
+    return hasExtension(source, {".vtk"});
+}
 
 CellSoup readLegacyVtk(const std::string& source, const ReadOptions&) {
     checkReadable(source);

@@ -12,7 +12,8 @@ namespace tetralux::mesh {
 namespace {
 
 bool acceptsVtkXml(const std::string& source) {
-    return hasExtension(source, {".vtu", ".pvtu", ".vti", ".pvti", ".vtr", ".pvtr", ".vts", ".pvts", ".vtm", ".vtp", ".pvtp"});
+    return hasExtension(source,
+                        {".vtu", ".pvtu", ".vti", ".pvti", ".vtr", ".pvtr", ".vts", ".pvts", ".vtm", ".vtp", ".pvtp"});
 }
 
 CellSoup readVtkXml(const std::string& source, const ReadOptions& options) {

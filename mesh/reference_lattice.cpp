@@ -105,9 +105,9 @@ void cutHexahedron(Builder& build, int n) {
 
 void cutWedge(Builder& build, int n) {
     const auto prism = [&](std::array<int, 2> a, std::array<int, 2> b, std::array<int, 2> c, int k) {
-        build.cell(cell_type::wedge, {build.point(a[0], a[1], k), build.point(b[0], b[1], k), build.point(c[0], c[1], k),
-                                      build.point(a[0], a[1], k + 1), build.point(b[0], b[1], k + 1),
-                                      build.point(c[0], c[1], k + 1)});
+        build.cell(cell_type::wedge,
+                   {build.point(a[0], a[1], k), build.point(b[0], b[1], k), build.point(c[0], c[1], k),
+                    build.point(a[0], a[1], k + 1), build.point(b[0], b[1], k + 1), build.point(c[0], c[1], k + 1)});
     };
     for (int k = 0; k < n; ++k) {
         for (int j = 0; j < n; ++j) {

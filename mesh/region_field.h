@@ -8,8 +8,8 @@
 
 namespace tetralux::mesh {
 
-/// Adds the region, material or entity number of each cell as a cell field. It is shown unasked only if the solid cells have more
-/// than one.
+/// Adds the region, material or entity number of each cell as a cell field. It is shown unasked only if the solid cells
+/// have more than one.
 void addRegionField(CellSoup& soup, const std::string& name, std::vector<double>&& numbers);
 
 }  // namespace tetralux::mesh

@@ -41,7 +41,8 @@ std::size_t findField(const std::vector<Field>& fields, const std::string& name)
     return fields.size();
 }
 
-/// The first point field, else the first cell field, that is not mere numbers of points or cells; fields.size() if there is none.
+/// The first point field, else the first cell field, that is not mere numbers of points or cells; fields.size() if
+/// there is none.
 std::size_t firstField(const std::vector<Field>& fields) {
     for (const Association association : {Association::Point, Association::Cell}) {
         const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) {
@@ -110,8 +111,8 @@ double norm(const double* values, int count) {
     return largest * std::sqrt(sum);
 }
 
-/// Adds the coordinate called `name` ("x", "y" or "z"), or that along which the mesh is longest if `name` is empty, as a point
-/// field, so that a mesh without values can be shown at all.
+/// Adds the coordinate called `name` ("x", "y" or "z"), or that along which the mesh is longest if `name` is empty, as
+/// a point field, so that a mesh without values can be shown at all.
 void addCoordinateField(TetMesh& mesh, const std::string& name) {
     const BoundingBox box = usedBounds(mesh.positions, mesh.cells);
     const glm::dvec3 size = box.high - box.low;
@@ -126,7 +127,9 @@ void addCoordinateField(TetMesh& mesh, const std::string& name) {
     mesh.fields.push_back(std::move(field));
 }
 
-bool isCoordinateName(const std::string& name) { return name == "x" || name == "y" || name == "z"; }
+bool isCoordinateName(const std::string& name) {
+    return name == "x" || name == "y" || name == "z";
+}
 
 /// One value per point or cell, taken out of `field` in place.
 std::vector<double> takeScalars(Field& field, int component) {
@@ -158,8 +161,8 @@ bool hasFiniteScalars(const ScalarMesh& mesh, std::size_t cell) {
         return std::isfinite(mesh.scalars[cell]);
     }
     const Tetrahedron& t = mesh.cells[cell];
-    return std::isfinite(mesh.scalars[t[0]]) && std::isfinite(mesh.scalars[t[1]]) && std::isfinite(mesh.scalars[t[2]]) &&
-           std::isfinite(mesh.scalars[t[3]]);
+    return std::isfinite(mesh.scalars[t[0]]) && std::isfinite(mesh.scalars[t[1]]) &&
+           std::isfinite(mesh.scalars[t[2]]) && std::isfinite(mesh.scalars[t[3]]);
 }
 
 /// Leaves out cells with a NaN or infinite scalar; the order of the others stays. \returns how many.
@@ -228,8 +231,8 @@ ScalarSelection selectScalar(TetMesh&& mesh, const std::string& name, MeshReport
     }
     selection.nonFiniteCells = dropNonFiniteCells(selection.mesh, report);
     if (selection.mesh.cells.empty()) {
-        throw std::runtime_error(fmt::format("field '{}' is NaN or infinite in every cell; choose another with --scalar",
-                                             selection.fieldName));
+        throw std::runtime_error(fmt::format(
+            "field '{}' is NaN or infinite in every cell; choose another with --scalar", selection.fieldName));
     }
     findScalarRange(selection.mesh);
     selection.mesh.bounds = usedBounds(selection.mesh.positions, selection.mesh.cells);

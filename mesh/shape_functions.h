@@ -10,8 +10,8 @@
 
 namespace tetralux::mesh {
 
-/// The order of a curved cell with that many points: 2 for the quadratic types, found from the number for Lagrange and Bézier
-/// types of one order in all directions (1 to 10); nothing where there is none.
+/// The order of a curved cell with that many points: 2 for the quadratic types, found from the number for Lagrange and
+/// Bézier types of one order in all directions (1 to 10); nothing where there is none.
 std::optional<int> curvedCellOrder(std::uint8_t type, std::size_t pointCount);
 
 /// Weights of the cell's points at each parametric place: one row per place. Needs an order.

@@ -29,7 +29,8 @@ std::vector<double> meanAtPoints(const CellSoup& soup, const std::vector<CellVer
     std::vector<std::uint32_t> scratch;
     for (std::size_t cell = 0; cell < verdicts.size(); ++cell) {
         const double* value = field.values.data() + cell * components;
-        if (!isKept(verdicts[cell]) || !std::all_of(value, value + components, [](double v) { return std::isfinite(v); })) {
+        if (!isKept(verdicts[cell]) ||
+            !std::all_of(value, value + components, [](double v) { return std::isfinite(v); })) {
             continue;
         }
         forEachPoint(soup, cell, scratch, [&](std::uint32_t p) {

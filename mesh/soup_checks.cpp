@@ -26,8 +26,8 @@ void checkOffsets(const std::vector<std::uint64_t>& offsets, std::size_t cells, 
     const bool ordered = offsets.size() == cells + 1 && offsets.front() == 0 && offsets.back() == size &&
                          std::is_sorted(offsets.begin(), offsets.end());
     if (!ordered) {
-        throw std::runtime_error(
-            fmt::format("the {} of its cells do not fit together (offsets run back or past the end); write the file again", what));
+        throw std::runtime_error(fmt::format(
+            "the {} of its cells do not fit together (offsets run back or past the end); write the file again", what));
     }
 }
 
@@ -106,7 +106,8 @@ CellVerdict classifyCell(const CellSoup& soup, std::size_t cell) {
     }
     const auto points = cellPoints(soup, cell);
     const bool known = info.linear || info.shape != Shape::None;
-    if (!known || points.size() < 4 || (info.pointCount != 0 && points.size() != static_cast<std::size_t>(info.pointCount))) {
+    if (!known || points.size() < 4 ||
+        (info.pointCount != 0 && points.size() != static_cast<std::size_t>(info.pointCount))) {
         return CellVerdict::Unsupported;
     }
     return checkPoints(soup, points);
@@ -151,10 +152,10 @@ void checkFields(const CellSoup& soup) {
     for (const Field& field : soup.fields) {
         const std::size_t places = field.association == Association::Point ? soup.points.size() : soup.cellCount();
         if (field.components < 1 || field.values.size() != places * static_cast<std::size_t>(field.components)) {
-            throw std::runtime_error(fmt::format("field '{}' has {} values for {} {} of {} components; write the file again",
-                                                 field.name, field.values.size(), places,
-                                                 field.association == Association::Point ? "points" : "cells",
-                                                 field.components));
+            throw std::runtime_error(
+                fmt::format("field '{}' has {} values for {} {} of {} components; write the file again", field.name,
+                            field.values.size(), places, field.association == Association::Point ? "points" : "cells",
+                            field.components));
         }
     }
 }

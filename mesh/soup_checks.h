@@ -13,24 +13,26 @@ namespace tetralux::mesh {
 
 enum class CellVerdict : std::uint8_t {
     Good,
-    Inverted,           ///< kept, turned round
-    Folded,             ///< kept but for the parts of it that lie inside out
-    LowDimension,       ///< a point, line or surface cell
-    Hidden,             ///< ghost or blanked
+    Inverted,      ///< kept, turned round
+    Folded,        ///< kept but for the parts of it that lie inside out
+    LowDimension,  ///< a point, line or surface cell
+    Hidden,        ///< ghost or blanked
     IndexOutOfRange,
     NonFinitePosition,
-    Unsupported,        ///< unknown type, or a number of points that its type does not have
+    Unsupported,  ///< unknown type, or a number of points that its type does not have
     Flat,
 };
 
-inline bool isKept(CellVerdict verdict) { return verdict <= CellVerdict::Folded; }
+inline bool isKept(CellVerdict verdict) {
+    return verdict <= CellVerdict::Folded;
+}
 
 /// Makes sure that the arrays of `soup` fit together, so that nothing later reads outside them.
 /// \throws std::runtime_error saying which does not.
 void checkStructure(const CellSoup& soup);
 
-/// A verdict for each cell from its type and point numbers, and for all but tetrahedra from its positions (not yet Inverted, Folded
-/// or Flat), in parallel. Needs `checkStructure`.
+/// A verdict for each cell from its type and point numbers, and for all but tetrahedra from its positions (not yet
+/// Inverted, Folded or Flat), in parallel. Needs `checkStructure`.
 std::vector<CellVerdict> classifyCells(const CellSoup& soup);
 
 /// Counts cells, their types and their verdicts into `report`.

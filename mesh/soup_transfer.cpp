@@ -64,8 +64,7 @@ bool readArray(int file, Array& array) {
 bool writeSoup(int file, const CellSoup& soup) {
     bool good = writeArray(file, soup.points) && writeArray(file, soup.types) && writeArray(file, soup.offsets) &&
                 writeArray(file, soup.connectivity) && writeArray(file, soup.faceOffsets) &&
-                writeArray(file, soup.faceStream) && writeArray(file, soup.hidden) &&
-                writeArray(file, soup.times);
+                writeArray(file, soup.faceStream) && writeArray(file, soup.hidden) && writeArray(file, soup.times);
     const std::uint64_t fields = soup.fields.size();
     good = good && writeAll(file, &fields, sizeof fields);
     for (const Field& field : soup.fields) {

@@ -29,9 +29,9 @@ struct Pattern {
 int onlyPoint(const std::vector<double>& weights) {
     constexpr double roundoff = 1e-9;
     const auto heaviest = std::max_element(weights.begin(), weights.end());
-    const bool alone = std::abs(*heaviest - 1.0) < roundoff && std::count_if(weights.begin(), weights.end(), [](double w) {
-                                                                    return std::abs(w) > roundoff;
-                                                                }) == 1;
+    const bool alone =
+        std::abs(*heaviest - 1.0) < roundoff &&
+        std::count_if(weights.begin(), weights.end(), [](double w) { return std::abs(w) > roundoff; }) == 1;
     return alone ? static_cast<int>(heaviest - weights.begin()) : -1;
 }
 
@@ -96,7 +96,8 @@ public:
                                            soup_.connectivity.data() + soup_.offsets[cell + 1]),
             cell);
         if (type == cell_type::polyhedron) {
-            faceStream_.insert(faceStream_.end(), soup_.faceStream.begin() + static_cast<std::ptrdiff_t>(soup_.faceOffsets[cell]),
+            faceStream_.insert(faceStream_.end(),
+                               soup_.faceStream.begin() + static_cast<std::ptrdiff_t>(soup_.faceOffsets[cell]),
                                soup_.faceStream.begin() + static_cast<std::ptrdiff_t>(soup_.faceOffsets[cell + 1]));
             faceOffsets_.back() = faceStream_.size();
         }
@@ -185,7 +186,8 @@ bool isCurved(std::uint8_t type) {
 
 }  // namespace
 
-std::optional<std::vector<std::uint32_t>> subdivideCurvedCells(CellSoup& soup, std::vector<CellVerdict>& verdicts, int segments) {
+std::optional<std::vector<std::uint32_t>> subdivideCurvedCells(CellSoup& soup, std::vector<CellVerdict>& verdicts,
+                                                               int segments) {
     if (std::none_of(soup.types.begin(), soup.types.end(), isCurved)) {
         return std::nullopt;
     }

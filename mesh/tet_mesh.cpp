@@ -3,13 +3,15 @@
 
 #include <limits>
 
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
+#include <glm/geometric.hpp>
 
 namespace tetralux::mesh {
 
-double BoundingBox::diagonal() const { return glm::length(high - low); }
+double BoundingBox::diagonal() const {
+    return glm::length(high - low);
+}
 
 double sixVolumes(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
     return glm::dot(glm::cross(b - a, c - a), d - a);

@@ -31,8 +31,7 @@ using CellIndex = std::uint32_t;
 using Tetrahedron = std::array<PointIndex, 4>;
 
 /// faceVertices[k] lists the three local vertices of face k, outward counter-clockwise.
-inline constexpr std::array<std::array<int, 3>, 4> faceVertices{
-    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+inline constexpr std::array<std::array<int, 3>, 4> faceVertices{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 struct BoundingBox {
     glm::dvec3 low{0}, high{0};  ///< mesh units
@@ -54,14 +53,13 @@ struct ScalarMesh {
     std::vector<glm::dvec3> positions;  ///< mesh units
     std::vector<Tetrahedron> cells;
     Association association = Association::Point;
-    std::vector<double> scalars;             ///< one per point or per cell
-    double scalarMin = 0.0, scalarMax = 0.0; ///< over the points of cells, or over cells
-    BoundingBox bounds;                      ///< of the points that cells use
+    std::vector<double> scalars;              ///< one per point or per cell
+    double scalarMin = 0.0, scalarMax = 0.0;  ///< over the points of cells, or over cells
+    BoundingBox bounds;                       ///< of the points that cells use
 
     /// Scalar at local vertex `k` of `cell`; for cell data the cell's own value.
     double scalarAt(CellIndex cell, int k) const {
-        return association == Association::Point ? scalars[cells[cell][static_cast<std::size_t>(k)]]
-                                                 : scalars[cell];
+        return association == Association::Point ? scalars[cells[cell][static_cast<std::size_t>(k)]] : scalars[cell];
     }
 };
 

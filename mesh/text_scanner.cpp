@@ -15,7 +15,9 @@
 namespace tetralux::mesh {
 namespace {
 
-bool isSpace(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v'; }
+bool isSpace(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v';
+}
 
 /// A word of unknown content as it can stand in one line of error text.
 std::string shown(std::string_view word) {

@@ -29,7 +29,8 @@ public:
     std::string_view peek();
     double number(const char* what);
     std::int64_t integer(const char* what);
-    /// A number of things that follow, each at least `bytesEach` bytes long: refused when the text is too short for them.
+    /// A number of things that follow, each at least `bytesEach` bytes long: refused when the text is too short for
+    /// them.
     std::size_t count(const char* what, std::size_t bytesEach);
     /// The rest of the line, without its end.
     std::string_view restOfLine();

@@ -19,7 +19,6 @@
 namespace tetralux::mesh {
 namespace {
 
-
 /// Drops repeated tetrahedra. A source cell is counted once, however many tetrahedra it became.
 void dropDuplicates(Decomposition& decomposition, std::size_t pointCount, MeshReport& report) {
     const std::vector<std::uint8_t> duplicate = findDuplicateCells(decomposition.cells, pointCount);
@@ -57,7 +56,8 @@ void spreadCellField(Field& field, const Decomposition& decomposition) {
     const std::size_t components = static_cast<std::size_t>(field.components);
     std::vector<double> values(decomposition.cells.size() * components);
     tbb::parallel_for(std::size_t{0}, decomposition.cells.size(), [&](std::size_t i) {
-        std::copy_n(field.values.data() + decomposition.parents[i] * components, components, values.data() + i * components);
+        std::copy_n(field.values.data() + decomposition.parents[i] * components, components,
+                    values.data() + i * components);
     });
     field.values = std::move(values);
 }
@@ -127,7 +127,8 @@ CellVerdict joined(CellVerdict before, CellVerdict piece) {
 }
 
 /// Decomposition of the pieces of curved cells, with source cells as parents and verdicts of source cells.
-Decomposition decomposePieces(CellSoup& soup, const std::vector<std::uint32_t>& sources, std::vector<CellVerdict>& verdicts) {
+Decomposition decomposePieces(CellSoup& soup, const std::vector<std::uint32_t>& sources,
+                              std::vector<CellVerdict>& verdicts) {
     std::vector<CellVerdict> pieces(soup.types.size(), CellVerdict::Good);
     Decomposition decomposition = decomposeCells(soup, pieces);
     if (decomposition.parents.empty()) {
@@ -144,7 +145,8 @@ Decomposition decomposePieces(CellSoup& soup, const std::vector<std::uint32_t>& 
     return decomposition;
 }
 
-/// Turns a soup of nothing but tetrahedra into the form that holds just these, so that the rest is quick and needs little memory.
+/// Turns a soup of nothing but tetrahedra into the form that holds just these, so that the rest is quick and needs
+/// little memory.
 void preferTetrahedra(CellSoup& soup) {
     const auto isTetrahedron = [](std::uint8_t type) { return type == cell_type::tetrahedron; };
     if (soup.types.empty() || !soup.hidden.empty() || soup.connectivity.size() != 4 * soup.types.size() ||
@@ -214,7 +216,8 @@ ReadResult tetMeshFromSoup(CellSoup soup, const ReadOptions& options) {
     Decomposition decomposition = decompose(soup, options, result.report);
     // The common case, a sound mesh of tetrahedra, is spared the search.
     const bool mayHaveUnusedPoints = !decomposition.parents.empty() || sourcePoints != soup.points.size() ||
-                                     result.report.pointsMerged > 0 || result.report.defects.contains(Defect::UnusedPoint);
+                                     result.report.pointsMerged > 0 ||
+                                     result.report.defects.contains(Defect::UnusedPoint);
     soup.types = {};
     soup.offsets = {};
     soup.connectivity = {};

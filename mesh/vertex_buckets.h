@@ -20,7 +20,8 @@ public:
     /// `keyOf(item)` is the bucket of item 0 … itemCount − 1, below `bucketCount`. It is called twice per item.
     template <class KeyOf>
     VertexBuckets(std::size_t itemCount, std::size_t bucketCount, const KeyOf& keyOf)
-        : ends_(std::make_unique<std::atomic<Id>[]>(bucketCount)), items_(std::make_unique_for_overwrite<Id[]>(itemCount)) {
+        : ends_(std::make_unique<std::atomic<Id>[]>(bucketCount)),
+          items_(std::make_unique_for_overwrite<Id[]>(itemCount)) {
         using Range = tbb::blocked_range<std::size_t>;
         constexpr std::size_t grain = 32768;
         tbb::parallel_for(Range(0, itemCount, grain), [&](const Range& range) {

@@ -21,8 +21,7 @@ namespace {
 class SilentWindow : public vtkOutputWindow {
 public:
     static SilentWindow* New();
-    vtkTypeMacro(SilentWindow, vtkOutputWindow)
-    SilentWindow(const SilentWindow&) = delete;
+    vtkTypeMacro(SilentWindow, vtkOutputWindow) SilentWindow(const SilentWindow&) = delete;
     SilentWindow& operator=(const SilentWindow&) = delete;
 
     void DisplayText(const char*) override {}
@@ -63,7 +62,9 @@ std::string plainMessage(const std::string& text) {
 
 }  // namespace
 
-void captureVtkMessages() { vtkOutputWindow::SetInstance(vtkSmartPointer<SilentWindow>::New()); }
+void captureVtkMessages() {
+    vtkOutputWindow::SetInstance(vtkSmartPointer<SilentWindow>::New());
+}
 
 void throwOnVtkError() {
     const auto* window = SilentWindow::SafeDownCast(vtkOutputWindow::GetInstance());

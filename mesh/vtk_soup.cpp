@@ -58,7 +58,7 @@ template <class Id>
 std::uint32_t pointNumber(Id id) {
     const auto wide = static_cast<long long>(id);
     return wide < 0 || wide >= static_cast<long long>(CellSoup::invalidPoint) ? CellSoup::invalidPoint
-                                                                                : static_cast<std::uint32_t>(wide);
+                                                                              : static_cast<std::uint32_t>(wide);
 }
 
 void takeConnectivity(vtkUnstructuredGrid* grid, CellSoup& soup) {
@@ -115,7 +115,8 @@ void takePolyhedra(vtkUnstructuredGrid* grid, CellSoup& soup) {
 
 bool isBookkeeping(vtkDataSetAttributes* attributes, int index, const std::string& name) {
     const int role = attributes->IsArrayAnAttribute(index);
-    return role == vtkDataSetAttributes::GLOBALIDS || role == vtkDataSetAttributes::PEDIGREEIDS || isBookkeepingName(name);
+    return role == vtkDataSetAttributes::GLOBALIDS || role == vtkDataSetAttributes::PEDIGREEIDS ||
+           isBookkeepingName(name);
 }
 
 void takeFields(vtkDataSetAttributes* attributes, Association association, std::size_t places, CellSoup& soup) {
@@ -125,7 +126,8 @@ void takeFields(vtkDataSetAttributes* attributes, Association association, std::
             continue;  // strings, or an array that is cut short
         }
         Field field;
-        field.name = array->GetName() != nullptr && array->GetName()[0] != '\0' ? array->GetName() : fmt::format("array {}", i);
+        field.name =
+            array->GetName() != nullptr && array->GetName()[0] != '\0' ? array->GetName() : fmt::format("array {}", i);
         if (field.name == "vtkGhostType" || field.name == "vtkGhostLevels" || field.name == "vtkValidPointMask") {
             continue;
         }
@@ -163,7 +165,8 @@ void hideCells(vtkDataSet* data, CellSoup& soup) {
     for (std::size_t i = 0; i < cells; ++i) {
         bool hidden = (usable(cellGhosts, cells) && flagged(cellGhosts, i, notDrawn)) ||
                       (usable(cellLevels, cells) && flagged(cellLevels, i, 0xff));
-        for (std::uint64_t k = soup.offsets[i]; pointFlags && k < soup.offsets[i + 1] && k < soup.connectivity.size(); ++k) {
+        for (std::uint64_t k = soup.offsets[i]; pointFlags && k < soup.offsets[i + 1] && k < soup.connectivity.size();
+             ++k) {
             const std::uint32_t p = soup.connectivity[k];
             hidden = hidden || (p < soup.points.size() && flagged(pointGhosts, p, vtkDataSetAttributes::HIDDENPOINT));
         }
@@ -232,7 +235,8 @@ CellSoup soupFromVtk(vtkDataObject* data) {
         CellSoup soup;
         const auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
         for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem()) {
-            if (auto* part = vtkDataSet::SafeDownCast(leaf->GetCurrentDataObject()); part != nullptr && part->GetNumberOfCells() > 0) {
+            if (auto* part = vtkDataSet::SafeDownCast(leaf->GetCurrentDataObject());
+                part != nullptr && part->GetNumberOfCells() > 0) {
                 appendSoup(soup, soupFromDataSet(part));
             }
         }

@@ -19,9 +19,9 @@ namespace tetralux::mesh {
 /// \throws std::runtime_error if the object is of a kind without cells.
 CellSoup soupFromVtk(vtkDataObject* data);
 
-/// Updates `reader`, at the time step nearest to `time` if it has several, and converts its first output. VTK's messages are collected, not printed, from the first
-/// call on, so call it within `readIsolated` only.
-/// \throws std::runtime_error with the reader's first error message and a remedy, without the name of the file.
+/// Updates `reader`, at the time step nearest to `time` if it has several, and converts its first output. VTK's
+/// messages are collected, not printed, from the first call on, so call it within `readIsolated` only. \throws
+/// std::runtime_error with the reader's first error message and a remedy, without the name of the file.
 CellSoup soupFromReader(vtkAlgorithm& reader, std::optional<double> time);
 
 /// The one of `times` nearest to `wanted`, the first if nothing is wanted. `times` must not be empty.

@@ -22,7 +22,9 @@ struct Tag {
     }
 };
 
-bool isSpace(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
+bool isSpace(char c) {
+    return c == ' ' || c == '\n' || c == '\t' || c == '\r';
+}
 
 /// Replaces the five named entities. \returns false for any other.
 bool decodeEntities(std::string& text) {
@@ -64,7 +66,8 @@ public:
         }
         ++at_;
         Tag tag;
-        while (at_ < text_.size() && !isSpace(text_[at_]) && text_[at_] != '>' && (text_[at_] != '/' || tag.name.empty())) {
+        while (at_ < text_.size() && !isSpace(text_[at_]) && text_[at_] != '>' &&
+               (text_[at_] != '/' || tag.name.empty())) {
             tag.name += text_[at_++];
         }
         while (takeAttribute(tag)) {
@@ -187,8 +190,9 @@ private:
     bool takeArray(const Tag& tag) {
         VtuArray array;
         if (!section_ || tag.get("format") != "appended" || !tag.get("TimeStep").empty() ||
-            !parseNumber(tag.get("offset"), array.offset) || !parseNumber(tag.get("NumberOfComponents", "1"), array.components) ||
-            array.components < 1 || array.components > 1000) {
+            !parseNumber(tag.get("offset"), array.offset) ||
+            !parseNumber(tag.get("NumberOfComponents", "1"), array.components) || array.components < 1 ||
+            array.components > 1000) {
             return false;
         }
         array.name = tag.get("Name");
@@ -219,6 +223,8 @@ private:
 
 }  // namespace
 
-std::optional<VtuHead> parseVtuHead(std::string_view text) { return HeadParser(text).parse(); }
+std::optional<VtuHead> parseVtuHead(std::string_view text) {
+    return HeadParser(text).parse();
+}
 
 }  // namespace tetralux::mesh

@@ -30,8 +30,8 @@ struct VtuHead {
     std::vector<VtuArray> arrays;
 };
 
-/// The head at the beginning of `text`, if it is of the plain kind described above in this machine's byte order; nothing for any
-/// other file, sound or not: VTK's reader knows more dialects and has the better messages.
+/// The head at the beginning of `text`, if it is of the plain kind described above in this machine's byte order;
+/// nothing for any other file, sound or not: VTK's reader knows more dialects and has the better messages.
 std::optional<VtuHead> parseVtuHead(std::string_view text);
 
 }  // namespace tetralux::mesh

@@ -67,9 +67,10 @@ void declareFields(Head& head, const TetMesh& mesh, Association association) {
 std::string makeHead(const TetMesh& mesh) {
     const char* order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
     Head head;
-    head.open(fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
-                          "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-                          order, mesh.positions.size(), mesh.cells.size()));
+    head.open(
+        fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
+                    "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+                    order, mesh.positions.size(), mesh.cells.size()));
     head.open("<Points>\n");
     head.declare("Float64", "Points", 3, mesh.positions.size() * 3 * sizeof(double));
     head.open("</Points>\n<Cells>\n");
@@ -138,7 +139,8 @@ void writeVtu(const std::string& path, const TetMesh& mesh) {
     {
         std::ofstream out(beside, std::ios::binary | std::ios::trunc);
         if (!out) {
-            throw std::runtime_error(fmt::format("{}: cannot be written; check that the folder exists and may be written", path));
+            throw std::runtime_error(
+                fmt::format("{}: cannot be written; check that the folder exists and may be written", path));
         }
         putMesh(out, mesh);
         out.close();

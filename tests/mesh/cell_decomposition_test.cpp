@@ -14,10 +14,16 @@ using namespace test;
 using Cube = std::array<std::uint32_t, 8>;  // corner of the bits zyx
 using Ids = std::vector<std::uint32_t>;
 
-Ids hexahedronOf(const Cube& c) { return {c[0], c[1], c[3], c[2], c[4], c[5], c[7], c[6]}; }
+Ids hexahedronOf(const Cube& c) {
+    return {c[0], c[1], c[3], c[2], c[4], c[5], c[7], c[6]};
+}
 
-void addHexahedron(CellSoup& soup, const Cube& c) { appendCell(soup, cell_type::hexahedron, hexahedronOf(c)); }
-void addVoxel(CellSoup& soup, const Cube& c) { appendCell(soup, cell_type::voxel, c); }
+void addHexahedron(CellSoup& soup, const Cube& c) {
+    appendCell(soup, cell_type::hexahedron, hexahedronOf(c));
+}
+void addVoxel(CellSoup& soup, const Cube& c) {
+    appendCell(soup, cell_type::voxel, c);
+}
 
 void addWedges(CellSoup& soup, const Cube& c) {
     appendCell(soup, cell_type::wedge, Ids{c[0], c[1], c[3], c[4], c[5], c[7]});
@@ -33,8 +39,12 @@ void addPyramids(CellSoup& soup, const Cube& c) {
     const std::uint32_t tip = static_cast<std::uint32_t>(soup.points.size());
     soup.points.push_back(middle);
     const Ids h = hexahedronOf(c);
-    for (const std::array<std::size_t, 4>& f : {std::array<std::size_t, 4>{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1},
-                                                {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}}) {
+    for (const std::array<std::size_t, 4>& f : {std::array<std::size_t, 4>{0, 1, 2, 3},
+                                                {4, 7, 6, 5},
+                                                {0, 4, 5, 1},
+                                                {1, 5, 6, 2},
+                                                {2, 6, 7, 3},
+                                                {3, 7, 4, 0}}) {
         appendCell(soup, cell_type::pyramid, Ids{h[f[0]], h[f[1]], h[f[2]], h[f[3]], tip});
     }
 }
@@ -46,8 +56,12 @@ void addPolyhedron(CellSoup& soup, const Cube& c) {
         soup.faceOffsets.push_back(0);
     }
     appendCell(soup, cell_type::polyhedron, h);
-    for (const std::array<std::size_t, 4>& f : {std::array<std::size_t, 4>{0, 3, 2, 1}, {4, 7, 6, 5}, {0, 1, 5, 4},
-                                                {1, 5, 6, 2}, {2, 3, 7, 6}, {3, 7, 4, 0}}) {
+    for (const std::array<std::size_t, 4>& f : {std::array<std::size_t, 4>{0, 3, 2, 1},
+                                                {4, 7, 6, 5},
+                                                {0, 1, 5, 4},
+                                                {1, 5, 6, 2},
+                                                {2, 3, 7, 6},
+                                                {3, 7, 4, 0}}) {
         for (const std::uint32_t entry : {4u, h[f[0]], h[f[1]], h[f[2]], h[f[3]]}) {
             soup.faceStream.push_back(entry);
         }
@@ -104,7 +118,8 @@ TEST_P(EveryCell, FillsTheCubeWithWarpedFaces) {
 }
 
 TEST_P(EveryCell, InsideOutIsTurnedRound) {
-    CellSoup soup = cubeGrid(3, 1, [](const glm::dvec3& x) { return glm::dvec3(1.0 - x.x, x.y, x.z); }, GetParam().add);
+    CellSoup soup = cubeGrid(
+        3, 1, [](const glm::dvec3& x) { return glm::dvec3(1.0 - x.x, x.y, x.z); }, GetParam().add);
     addPointField(soup, "s", linearField);
     const ReadResult result = tetMeshFromSoup(soup);
     EXPECT_NEAR(totalVolume(result.mesh), 1.0, 1e-13);
@@ -134,9 +149,11 @@ CellSoup prism(std::uint8_t type, std::uint32_t sides) {
 }
 
 TEST(Prisms, PentagonalAndHexagonal) {
-    for (const auto& [type, sides] : {std::pair{cell_type::pentagonalPrism, 5u}, std::pair{cell_type::hexagonalPrism, 6u}}) {
+    for (const auto& [type, sides] :
+         {std::pair{cell_type::pentagonalPrism, 5u}, std::pair{cell_type::hexagonalPrism, 6u}}) {
         const ReadResult result = tetMeshFromSoup(prism(type, sides));
-        EXPECT_NEAR(totalVolume(result.mesh), 0.7 * sides / 2.0 * std::sin(2.0 * 3.14159265358979323846 / sides), 1e-14);
+        EXPECT_NEAR(totalVolume(result.mesh), 0.7 * sides / 2.0 * std::sin(2.0 * 3.14159265358979323846 / sides),
+                    1e-14);
         EXPECT_LT(largestError(result.mesh, linearField), 1e-15);
         EXPECT_TRUE(result.report.defects.empty());
     }

@@ -13,8 +13,8 @@ namespace {
 
 using namespace test;
 
-/// Where the points of a curved cell lie in its parametric cell: the places at which exactly one shape function is 1 on a fine
-/// lattice. Found by search, so that the test knows nothing of VTK's numbering.
+/// Where the points of a curved cell lie in its parametric cell: the places at which exactly one shape function is 1 on
+/// a fine lattice. Found by search, so that the test knows nothing of VTK's numbering.
 std::vector<std::array<double, 3>> nodePlaces(std::uint8_t type, std::size_t points, int order) {
     const ReferenceLattice lattice = referenceLattice(cellTypeInfo(type).shape, order);
     const auto weights = shapeFunctions(type, points, lattice.points);
@@ -69,20 +69,19 @@ TEST_P(EveryCurvedCell, StraightOnesKeepVolumeAndLinearField) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Types, EveryCurvedCell,
-    testing::Values(CurvedKind{"tet10", cell_type::quadraticTetrahedron, 10, 2, 1.0 / 6.0},
-                    CurvedKind{"hex20", cell_type::quadraticHexahedron, 20, 2, 1.0},
-                    CurvedKind{"hex24", cell_type::biquadraticQuadraticHexahedron, 24, 2, 1.0},
-                    CurvedKind{"hex27", cell_type::triquadraticHexahedron, 27, 2, 1.0},
-                    CurvedKind{"wedge12", cell_type::quadraticLinearWedge, 12, 2, 0.5},
-                    CurvedKind{"wedge15", cell_type::quadraticWedge, 15, 2, 0.5},
-                    CurvedKind{"wedge18", cell_type::biquadraticQuadraticWedge, 18, 2, 0.5},
-                    CurvedKind{"pyramid13", cell_type::quadraticPyramid, 13, 2, 1.0 / 3.0},
-                    CurvedKind{"lagrange_tet35", cell_type::lagrangeTetrahedron, 35, 4, 1.0 / 6.0},
-                    CurvedKind{"lagrange_hex64", cell_type::lagrangeHexahedron, 64, 3, 1.0},
-                    CurvedKind{"lagrange_wedge40", cell_type::lagrangeWedge, 40, 3, 0.5}),
-    [](const auto& kind) { return std::string(kind.param.name); });
+INSTANTIATE_TEST_SUITE_P(Types, EveryCurvedCell,
+                         testing::Values(CurvedKind{"tet10", cell_type::quadraticTetrahedron, 10, 2, 1.0 / 6.0},
+                                         CurvedKind{"hex20", cell_type::quadraticHexahedron, 20, 2, 1.0},
+                                         CurvedKind{"hex24", cell_type::biquadraticQuadraticHexahedron, 24, 2, 1.0},
+                                         CurvedKind{"hex27", cell_type::triquadraticHexahedron, 27, 2, 1.0},
+                                         CurvedKind{"wedge12", cell_type::quadraticLinearWedge, 12, 2, 0.5},
+                                         CurvedKind{"wedge15", cell_type::quadraticWedge, 15, 2, 0.5},
+                                         CurvedKind{"wedge18", cell_type::biquadraticQuadraticWedge, 18, 2, 0.5},
+                                         CurvedKind{"pyramid13", cell_type::quadraticPyramid, 13, 2, 1.0 / 3.0},
+                                         CurvedKind{"lagrange_tet35", cell_type::lagrangeTetrahedron, 35, 4, 1.0 / 6.0},
+                                         CurvedKind{"lagrange_hex64", cell_type::lagrangeHexahedron, 64, 3, 1.0},
+                                         CurvedKind{"lagrange_wedge40", cell_type::lagrangeWedge, 40, 3, 0.5}),
+                         [](const auto& kind) { return std::string(kind.param.name); });
 
 TEST(ReferenceLattice, PiecesFillTheCell) {
     for (const auto& [shape, volume] : {std::pair{Shape::Tet, 1.0 / 6.0}, std::pair{Shape::Hexahedron, 1.0},
@@ -95,7 +94,8 @@ TEST(ReferenceLattice, PiecesFillTheCell) {
                 soup.points.emplace_back(p[0] * shrink, p[1] * shrink, p[2]);
             }
             for (const ReferenceLattice::SubCell& cell : lattice.cells) {
-                appendCell(soup, cell.type, std::vector<int>(cell.points.begin(), cell.points.begin() + cell.pointCount));
+                appendCell(soup, cell.type,
+                           std::vector<int>(cell.points.begin(), cell.points.begin() + cell.pointCount));
             }
             const ReadResult result = tetMeshFromSoup(soup);
             EXPECT_NEAR(totalVolume(result.mesh), volume, 1e-13);
@@ -105,13 +105,15 @@ TEST(ReferenceLattice, PiecesFillTheCell) {
     }
 }
 
-/// Two tetrahedra of ten points over a common face, of which the middles are bulged: a quadratic field is met ever better.
+/// Two tetrahedra of ten points over a common face, of which the middles are bulged: a quadratic field is met ever
+/// better.
 CellSoup twoCurvedTetrahedra() {
     CellSoup soup;
     soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
     const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-        const auto [place, isNew] = middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(soup.points.size()));
+        const auto [place, isNew] =
+            middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(soup.points.size()));
         if (isNew) {
             const glm::dvec3 bulge(0.03 * a, 0.02 * b, -0.02 * (a + b));
             soup.points.push_back(0.5 * (soup.points[a] + soup.points[b]) + bulge);

@@ -37,7 +37,9 @@ inline double totalVolume(const TetMesh& mesh) {
     return sum;
 }
 
-inline double linearField(const glm::dvec3& x) { return 0.3 + 1.7 * x.x - 0.9 * x.y + 0.4 * x.z; }
+inline double linearField(const glm::dvec3& x) {
+    return 0.3 + 1.7 * x.x - 0.9 * x.y + 0.4 * x.z;
+}
 
 inline void addPointField(CellSoup& soup, const std::string& name, const std::function<double(const glm::dvec3&)>& f) {
     Field field;
@@ -57,8 +59,8 @@ inline double largestError(const TetMesh& mesh, const std::function<double(const
     return error;
 }
 
-/// n³ cubes of the unit cube, each made into cells by `addCube(soup, corner)` where corner[bits zyx] are its points. Points are
-/// numbered at random, so that no rule about point numbers is met by luck, and moved by `warp`.
+/// n³ cubes of the unit cube, each made into cells by `addCube(soup, corner)` where corner[bits zyx] are its points.
+/// Points are numbered at random, so that no rule about point numbers is met by luck, and moved by `warp`.
 inline CellSoup cubeGrid(int n, unsigned seed, const std::function<glm::dvec3(const glm::dvec3&)>& warp,
                          const std::function<void(CellSoup&, const std::array<std::uint32_t, 8>&)>& addCube) {
     const int edge = n + 1;
@@ -91,11 +93,15 @@ inline CellSoup cubeGrid(int n, unsigned seed, const std::function<glm::dvec3(co
 
 /// Leaves the surface of the unit cube where it is and bends everything within, so that faces inside are not planar.
 inline glm::dvec3 bend(const glm::dvec3& x) {
-    const double amount = 0.5 * std::sin(3.14159265358979 * x.x) * std::sin(3.14159265358979 * x.y) * std::sin(3.14159265358979 * x.z);
-    return x + amount * glm::dvec3(0.31 * std::sin(9.0 * x.y), 0.23 * std::cos(7.0 * x.z), 0.27 * std::sin(8.0 * x.x + 1.0));
+    const double amount =
+        0.5 * std::sin(3.14159265358979 * x.x) * std::sin(3.14159265358979 * x.y) * std::sin(3.14159265358979 * x.z);
+    return x + amount *
+                   glm::dvec3(0.31 * std::sin(9.0 * x.y), 0.23 * std::cos(7.0 * x.z), 0.27 * std::sin(8.0 * x.x + 1.0));
 }
 
-inline glm::dvec3 straight(const glm::dvec3& x) { return x; }
+inline glm::dvec3 straight(const glm::dvec3& x) {
+    return x;
+}
 
 /// A folder that goes with the test.
 class TemporaryFolder {

@@ -14,7 +14,8 @@ TEST(MeshStatistics, OfAGrid) {
     const MeshStatistics s = meshStatistics(sampleOnGrid(proceduralField("marschner-lobb", 9), 9));
     EXPECT_EQ(s.cells, 5u * 512u);
     EXPECT_NEAR(s.volume, 8.0, 1e-12);
-    EXPECT_NEAR(s.largestVolume / s.smallestVolume, 2.0, 1e-12);  // the inner of the five has a third of the cube, the others a sixth
+    EXPECT_NEAR(s.largestVolume / s.smallestVolume, 2.0,
+                1e-12);  // the inner of the five has a third of the cube, the others a sixth
     EXPECT_EQ(s.boundaryFaces, 6u * 2u * 64u);
     EXPECT_EQ(4 * s.cells, 2 * s.innerFaces + s.boundaryFaces);
     EXPECT_EQ(s.components, 1u);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Feeds the formats that we parse ourselves. The first byte chooses one; a refusal is a std::runtime_error, anything else is a fault.
+// Feeds the formats that we parse ourselves. The first byte chooses one; a refusal is a std::runtime_error, anything
+// else is a fault.
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -37,7 +38,8 @@ CellSoup parseWithSolution(std::string_view bytes) {
 }
 
 CellSoup readAppended(std::string_view bytes) {
-    static const std::string path = (std::filesystem::temp_directory_path() / fmt::format("tetralux-fuzz-{}.vtu", ::getpid())).string();
+    static const std::string path =
+        (std::filesystem::temp_directory_path() / fmt::format("tetralux-fuzz-{}.vtu", ::getpid())).string();
     std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     return readAppendedVtu(path).value_or(CellSoup{});
 }

@@ -54,7 +54,8 @@ TEST(Gmsh, Version2Binary) {
 
 TEST(Gmsh, Version41TextAndBinary) {
     const std::string text =
-        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n2 4 1 4\n2 1 1 1\n1\n0 0 0 .5 .5\n3 1 0 3\n2\n3\n4\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n"
+        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n2 4 1 4\n2 1 1 1\n1\n0 0 0 .5 .5\n3 1 0 3\n2\n3\n4\n1 0 0\n0 1 "
+        "0\n0 0 1\n$EndNodes\n"
         "$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n";
     EXPECT_NEAR(totalVolume(tetMeshFromSoup(parseGmsh(text, "c.msh", {})).mesh), 1.0 / 6.0, 1e-15);
     using Size = std::uint64_t;
@@ -66,13 +67,20 @@ TEST(Gmsh, Version41TextAndBinary) {
     EXPECT_NEAR(totalVolume(tetMeshFromSoup(parseGmsh(bytes, "d.msh", {})).mesh), 1.0 / 6.0, 1e-15);
 }
 
-/// The order of Gmsh's second-order points is right if the points in the middle of Gmsh's edges (reference manual, "Node
-/// ordering") land where VTK's shape functions expect them.
+/// The order of Gmsh's second-order points is right if the points in the middle of Gmsh's edges (reference manual,
+/// "Node ordering") land where VTK's shape functions expect them.
 TEST(Gmsh, SecondOrderPointsAreInVtksOrder) {
     using Edges = std::vector<std::vector<int>>;
-    const Edges hexEdges{{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}};
+    const Edges hexEdges{{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3},
+                         {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}};
     Edges hex27 = hexEdges;
-    for (const std::vector<int>& face : Edges{{0, 3, 2, 1}, {0, 1, 5, 4}, {0, 4, 7, 3}, {1, 2, 6, 5}, {2, 3, 7, 6}, {4, 5, 6, 7}, {0, 1, 2, 3, 4, 5, 6, 7}}) {
+    for (const std::vector<int>& face : Edges{{0, 3, 2, 1},
+                                              {0, 1, 5, 4},
+                                              {0, 4, 7, 3},
+                                              {1, 2, 6, 5},
+                                              {2, 3, 7, 6},
+                                              {4, 5, 6, 7},
+                                              {0, 1, 2, 3, 4, 5, 6, 7}}) {
         hex27.push_back(face);
     }
     const Edges wedgeEdges{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}};
@@ -86,14 +94,16 @@ TEST(Gmsh, SecondOrderPointsAreInVtksOrder) {
         std::vector<glm::dvec3> corners;
         Edges extra;
     };
-    const std::vector<glm::dvec3> cube{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    const std::vector<glm::dvec3> cube{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                       {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
     const std::vector<glm::dvec3> prism{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
-    const std::vector<Case> cases{{11, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}}},
-                                  {17, cube, hexEdges},
-                                  {12, cube, hex27},
-                                  {18, prism, wedgeEdges},
-                                  {13, prism, wedge18},
-                                  {19, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}}, pyramidEdges}};
+    const std::vector<Case> cases{
+        {11, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}}},
+        {17, cube, hexEdges},
+        {12, cube, hex27},
+        {18, prism, wedgeEdges},
+        {13, prism, wedge18},
+        {19, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}}, pyramidEdges}};
     for (const Case& one : cases) {
         CellSoup soup;
         soup.points = one.corners;
@@ -109,7 +119,8 @@ TEST(Gmsh, SecondOrderPointsAreInVtksOrder) {
         appendCell(soup, element.type, element.order);
         addPointField(soup, "s", linearField);
         ReadOptions options;
-        options.subdivision = 5;  // no lattice point but the corners is a point of the cell: all come from its shape functions
+        options.subdivision =
+            5;  // no lattice point but the corners is a point of the cell: all come from its shape functions
         const ReadResult result = tetMeshFromSoup(soup, options);
         EXPECT_LT(largestError(result.mesh, linearField), 1e-13) << one.type;
         CellSoup linear;
@@ -123,23 +134,28 @@ TEST(Gmsh, SecondOrderPointsAreInVtksOrder) {
 }
 
 const std::string medit =
-    "MeshVersionFormatted 2\nDimension 3\n# a comment\nVertices\n5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1 1 1 3\nTriangles\n1\n1 2 3 4\n"
+    "MeshVersionFormatted 2\nDimension 3\n# a comment\nVertices\n5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1 1 1 "
+    "3\nTriangles\n1\n1 2 3 4\n"
     "Tetrahedra\n2\n1 2 3 4 7\n2 3 4 5 8\nRequiredVertices\n2\n1\n2\nEnd\n";
 
 TEST(Medit, TextWithSolution) {
     CellSoup soup = parseMeditText(medit, "a.mesh");
-    parseMeditSolution("MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n5\n2 1 2\n1 0 0 1\n2 0 0 2\n3 0 0 3\n4 0 0 4\n5 0 0 5\nEnd\n", "a.sol", soup);
+    parseMeditSolution(
+        "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n5\n2 1 2\n1 0 0 1\n2 0 0 2\n3 0 0 3\n4 0 0 4\n5 0 0 "
+        "5\nEnd\n",
+        "a.sol", soup);
     const ReadResult result = tetMeshFromSoup(soup);
     EXPECT_NEAR(totalVolume(result.mesh), 0.5, 1e-15);
     EXPECT_EQ(result.mesh.fields[0].values, (std::vector<double>{7, 8}));
     EXPECT_EQ(result.mesh.fields[1].values, (std::vector<double>{1, 2, 3, 4, 5}));
     EXPECT_EQ(result.mesh.fields[2].components, 3);
-    expectError([&] { parseMeditSolution("SolAtVertices 2 1 1 0 0", "b.sol", soup); }, "2 vertices where the mesh has 5");
+    expectError([&] { parseMeditSolution("SolAtVertices 2 1 1 0 0", "b.sol", soup); },
+                "2 vertices where the mesh has 5");
 }
 
 TEST(Medit, BinaryOfEitherByteOrder) {
-    std::string bytes = packed(1, 2) + packed(3, 20, 3);                                    // dimension at byte 8, next section at 20
-    bytes += packed(4, 144, 4);                                                             // vertices: 12 + 4·28 bytes
+    std::string bytes = packed(1, 2) + packed(3, 20, 3);  // dimension at byte 8, next section at 20
+    bytes += packed(4, 144, 4);                           // vertices: 12 + 4·28 bytes
     bytes += packed(0.0, 0.0, 0.0, 0) + packed(1.0, 0.0, 0.0, 0) + packed(0.0, 1.0, 0.0, 0) + packed(0.0, 0.0, 1.0, 0);
     bytes += packed(8, 176, 1, 1, 2, 3, 4, 5) + packed(54, 0);
     EXPECT_NEAR(totalVolume(tetMeshFromSoup(parseMeditBinary(bytes, "a.meshb")).mesh), 1.0 / 6.0, 1e-15);
@@ -154,7 +170,8 @@ TEST(Tetgen, NumberedFromOneAndZeroWithAttributes) {
         for (int i = 0; i < 4; ++i) {
             nodes += fmt::format("{} {} {} 0\n", i + first, places[static_cast<std::size_t>(i)], 10 * i);
         }
-        const std::string elements = fmt::format("1 4 1\n{} {} {} {} {} 5\n", first, first, first + 1, first + 2, first + 3);
+        const std::string elements =
+            fmt::format("1 4 1\n{} {} {} {} {} 5\n", first, first, first + 1, first + 2, first + 3);
         const ReadResult result = tetMeshFromSoup(parseTetgen(nodes, "a.node", elements, "a.ele"));
         EXPECT_NEAR(totalVolume(result.mesh), 1.0 / 6.0, 1e-15);
         EXPECT_EQ(result.mesh.fields[0].values[3], 30.0);
@@ -167,9 +184,12 @@ TEST(Parsers, InvalidTextSaysWhatAndWhere) {
     expectError(gmsh(""), "x.msh: line 1: does not begin with $MeshFormat");
     expectError(gmsh("$MeshFormat\n4 1 8\n"), "save it as version 4.1 or 2.2");
     expectError(gmsh("$MeshFormat\n2.2 0 4\n"), "numbers of 4 bytes");
-    expectError(gmsh("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n99999\n1 0 0 0\n"), "line 5: the number of nodes is 99999");
-    expectError(gmsh("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 zero 0\n$EndNodes\n"), "'zero' stands where a coordinate should");
-    expectError(gmsh("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Elements\n1\n1 777 2 0 0 1 2 3\n$EndElements\n"), "Gmsh's type 777");
+    expectError(gmsh("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n99999\n1 0 0 0\n"),
+                "line 5: the number of nodes is 99999");
+    expectError(gmsh("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 zero 0\n$EndNodes\n"),
+                "'zero' stands where a coordinate should");
+    expectError(gmsh("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Elements\n1\n1 777 2 0 0 1 2 3\n$EndElements\n"),
+                "Gmsh's type 777");
     expectError(gmsh(gmsh2.substr(0, 300)), "x.msh: line ");
     const auto tetgen = [](const std::string& nodes, const std::string& elements) {
         return [=] { parseTetgen(nodes, "x.node", elements, "x.ele"); };

@@ -28,7 +28,8 @@ TEST_P(EveryField, GradientIsTheLimitOfDifferences) {
             h[axis] = step;
             // Fourth-order central difference.
             const double slope = (8.0 * (field.value(x + h) - field.value(x - h)) -
-                                  (field.value(x + 2.0 * h) - field.value(x - 2.0 * h))) / (12.0 * step);
+                                  (field.value(x + 2.0 * h) - field.value(x - 2.0 * h))) /
+                                 (12.0 * step);
             EXPECT_NEAR(gradient[axis], slope, 2e-8 * (1.0 + glm::length(gradient)));
         }
     }
@@ -56,8 +57,9 @@ TEST_P(EveryField, IsFiniteAtItsCentreAndCorners) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Names, EveryField, testing::ValuesIn(proceduralFieldNames()),
-                         [](const auto& kind) { return kind.param == "marschner-lobb" ? std::string("marschner_lobb") : kind.param; });
+INSTANTIATE_TEST_SUITE_P(Names, EveryField, testing::ValuesIn(proceduralFieldNames()), [](const auto& kind) {
+    return kind.param == "marschner-lobb" ? std::string("marschner_lobb") : kind.param;
+});
 
 TEST(BuckyBall, HasTheStatedSizeAndNorm) {
     const TetMesh mesh = sampleOnGrid(proceduralField("bucky", 32), 32);

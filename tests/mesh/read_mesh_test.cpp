@@ -15,7 +15,8 @@ using namespace test;
 
 TetMesh meshWithFields() {
     TetMesh mesh = sampleOnGrid(proceduralField("hydrogen", 6), 6);
-    mesh.fields.push_back({"velocity <m/s> & \"more\"", Association::Point, 3, std::vector<double>(3 * mesh.positions.size())});
+    mesh.fields.push_back(
+        {"velocity <m/s> & \"more\"", Association::Point, 3, std::vector<double>(3 * mesh.positions.size())});
     std::iota(mesh.fields[1].values.begin(), mesh.fields[1].values.end(), -1e-3);
     mesh.fields.push_back({"größe", Association::Cell, 1, std::vector<double>(mesh.cells.size(), 1e300)});
     return mesh;
@@ -40,7 +41,9 @@ TEST(WriteVtu, ComesBackToTheBit) {
     const ReadResult result = readMesh(folder.file("a.vtu"));
     expectSame(result.mesh, mesh);
     EXPECT_TRUE(result.report.defects.empty());
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(std::filesystem::path(folder.file("")).parent_path()), {}), 1);
+    EXPECT_EQ(
+        std::distance(std::filesystem::directory_iterator(std::filesystem::path(folder.file("")).parent_path()), {}),
+        1);
 }
 
 TEST(WriteVtu, UnwritablePathIsNamed) {
@@ -48,7 +51,9 @@ TEST(WriteVtu, UnwritablePathIsNamed) {
     const TemporaryFolder folder;
     std::filesystem::create_directories(folder.file("b.vtu") + "/full");
     expectError([&] { writeVtu(folder.file("b.vtu"), meshWithFields()); }, "cannot be replaced");
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(std::filesystem::path(folder.file("")).parent_path()), {}), 1);
+    EXPECT_EQ(
+        std::distance(std::filesystem::directory_iterator(std::filesystem::path(folder.file("")).parent_path()), {}),
+        1);
 }
 
 TEST(ReadMesh, GeneratedFieldsByName) {
@@ -68,15 +73,19 @@ TEST(ReadMesh, SourcesThatCannotBeRead) {
     expectError(reading("bucky:1"), "2 to 1000");
 }
 
-constexpr const char* vtuHead = "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>";
+constexpr const char* vtuHead =
+    "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>";
 constexpr const char* vtuTail = "</UnstructuredGrid></VTKFile>";
 
-std::string vtu(const std::string& points, const std::string& connectivity, const std::string& offsets, const std::string& types,
-                int pointCount, int cellCount) {
+std::string vtu(const std::string& points, const std::string& connectivity, const std::string& offsets,
+                const std::string& types, int pointCount, int cellCount) {
     return fmt::format(
-        "{}<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\"><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" "
-        "format=\"ascii\">{}</DataArray></Points><Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">{}</DataArray>"
-        "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">{}</DataArray><DataArray type=\"UInt8\" Name=\"types\" "
+        "{}<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\"><Points><DataArray type=\"Float64\" "
+        "NumberOfComponents=\"3\" "
+        "format=\"ascii\">{}</DataArray></Points><Cells><DataArray type=\"Int64\" Name=\"connectivity\" "
+        "format=\"ascii\">{}</DataArray>"
+        "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">{}</DataArray><DataArray type=\"UInt8\" "
+        "Name=\"types\" "
         "format=\"ascii\">{}</DataArray></Cells></Piece>{}",
         vtuHead, pointCount, cellCount, points, connectivity, offsets, types, vtuTail);
 }
@@ -94,19 +103,23 @@ TEST(ReadVtk, InvalidFilesSayWhatIsWrong) {
         {"open.vtu", std::string(vtuHead) + "<Piece NumberOf", "open.vtu: cannot be read"},
         {"empty.vtu", vtu("", "", "", "", 0, 0), "empty.vtu: holds no cells"},
         {"nocells.vtu", vtu(square, "", "", "", 4, 0), "nocells.vtu: holds no cells"},
-        {"flat.vtu", vtu("0 0 0 1 0 0 0 1 0 1 1 0", "0 1 2 3", "4", "10", 4, 1), "no solid cell is left of 1: 1 flat cell"},
+        {"flat.vtu", vtu("0 0 0 1 0 0 0 1 0 1 1 0", "0 1 2 3", "4", "10", 4, 1),
+         "no solid cell is left of 1: 1 flat cell"},
         {"far.vtu", vtu(square, "0 1 2 9", "4", "10", 4, 1), "1 index out of range"},
         {"type.vtu", vtu(square, "0 1 2 3", "4", "99", 4, 1), "1 unsupported cell"},
         {"surface.vtu", vtu(square, "0 1 2", "3", "5", 4, 1), "tetralux mesh"},
-        {"noise.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS four float\n", "noise.vtk: cannot be read"},
+        {"noise.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS four float\n",
+         "noise.vtk: cannot be read"},
         {"other.vtk", "hello\n", "other.vtk: cannot be read"},
         {"none.pvd", "<VTKFile type=\"Collection\"><Collection/></VTKFile>", "none.pvd: names no file"},
-        {"missing.pvd", "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" file=\"gone.vtu\"/></Collection></VTKFile>",
+        {"missing.pvd",
+         "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" file=\"gone.vtu\"/></Collection></VTKFile>",
          "missing.pvd: names gone.vtu, which is not there"},
         {"text.ex2", "not NetCDF", "text.ex2: does not begin as an Exodus file"},
         {"text.cgns", "not HDF5", "text.cgns: does not begin as a CGNS file"},
         {"thin.vti",
-         "<VTKFile type=\"ImageData\" version=\"0.1\"><ImageData WholeExtent=\"0 4 0 4 0 0\" Origin=\"0 0 0\" Spacing=\"1 1 1\"><Piece "
+         "<VTKFile type=\"ImageData\" version=\"0.1\"><ImageData WholeExtent=\"0 4 0 4 0 0\" Origin=\"0 0 0\" "
+         "Spacing=\"1 1 1\"><Piece "
          "Extent=\"0 4 0 4 0 0\"></Piece></ImageData></VTKFile>",
          "thin.vti: a grid of 5 x 5 x 1 points has no volume"},
     };
@@ -168,10 +181,11 @@ TEST(ReadVtk, GhostsSeriesAndPiecesTogether) {
     }
     writeVtu(folder.file("left.vtu"), left);
     writeVtu(folder.file("right.vtu"), right);
-    const std::string series = folder.write("both.pvd",
-                                            "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" file=\"left.vtu\"/>"
-                                            "<DataSet timestep=\"2.5\" part=\"0\" file=\"left.vtu\"/><DataSet timestep=\"2.5\" part=\"1\" "
-                                            "file=\"right.vtu\"/></Collection></VTKFile>");
+    const std::string series =
+        folder.write("both.pvd",
+                     "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" file=\"left.vtu\"/>"
+                     "<DataSet timestep=\"2.5\" part=\"0\" file=\"left.vtu\"/><DataSet timestep=\"2.5\" part=\"1\" "
+                     "file=\"right.vtu\"/></Collection></VTKFile>");
     ReadOptions options;
     EXPECT_EQ(readMesh(series, options).mesh.cells.size(), 40u);
     options.time = 2.0;
@@ -186,23 +200,33 @@ TEST(ReadVtk, GhostsSeriesAndPiecesTogether) {
 TEST(ReadVtk, ImagesRectilinearAndStructuredGrids) {
     const TemporaryFolder folder;
     const std::string values = "0 1 2 3 4 5 6 7";
-    const std::string array = "<PointData><DataArray type=\"Float32\" Name=\"v\" format=\"ascii\">" + values + "</DataArray></PointData>";
-    const std::string image = folder.write(
-        "a.vti", "<VTKFile type=\"ImageData\" version=\"0.1\"><ImageData WholeExtent=\"0 1 0 1 0 1\" Origin=\"1 2 3\" Spacing=\"2 1 1\"><Piece "
-                 "Extent=\"0 1 0 1 0 1\">" + array + "</Piece></ImageData></VTKFile>");
+    const std::string array =
+        "<PointData><DataArray type=\"Float32\" Name=\"v\" format=\"ascii\">" + values + "</DataArray></PointData>";
+    const std::string image = folder.write("a.vti",
+                                           "<VTKFile type=\"ImageData\" version=\"0.1\"><ImageData WholeExtent=\"0 1 0 "
+                                           "1 0 1\" Origin=\"1 2 3\" Spacing=\"2 1 1\"><Piece "
+                                           "Extent=\"0 1 0 1 0 1\">" +
+                                               array + "</Piece></ImageData></VTKFile>");
     const ReadResult voxels = readMesh(image);
     EXPECT_NEAR(totalVolume(voxels.mesh), 2.0, 1e-15);
     EXPECT_EQ(voxels.report.cellTypes.at("voxel"), 1u);
-    EXPECT_LT(largestError(voxels.mesh, [](const glm::dvec3& x) { return (x.x - 1) / 2 + 2 * (x.y - 2) + 4 * (x.z - 3); }), 1e-15);
-    const std::string grid = folder.write(
-        "b.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET STRUCTURED_GRID\nDIMENSIONS 2 2 2\nPOINTS 8 float\n0 0 0 1 0 0 0 1 0 1 1 0 "
-                 "0 0 1 1 0 1 0 1 1 1 1 1\nPOINT_DATA 8\nSCALARS v float 1\nLOOKUP_TABLE default\n" + values + "\n");
+    EXPECT_LT(
+        largestError(voxels.mesh, [](const glm::dvec3& x) { return (x.x - 1) / 2 + 2 * (x.y - 2) + 4 * (x.z - 3); }),
+        1e-15);
+    const std::string grid =
+        folder.write("b.vtk",
+                     "# vtk DataFile Version 3.0\nx\nASCII\nDATASET STRUCTURED_GRID\nDIMENSIONS 2 2 2\nPOINTS 8 "
+                     "float\n0 0 0 1 0 0 0 1 0 1 1 0 "
+                     "0 0 1 1 0 1 0 1 1 1 1 1\nPOINT_DATA 8\nSCALARS v float 1\nLOOKUP_TABLE default\n" +
+                         values + "\n");
     const ReadResult hexahedron = readMesh(grid);
     EXPECT_EQ(hexahedron.report.cellTypes.at("hexahedron"), 1u);
     EXPECT_NEAR(totalVolume(hexahedron.mesh), 1.0, 1e-15);
     const std::string lines = folder.write(
-        "c.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET RECTILINEAR_GRID\nDIMENSIONS 2 2 3\nX_COORDINATES 2 float\n0 1\nY_COORDINATES 2 "
-                 "float\n0 1\nZ_COORDINATES 3 float\n0 1 5\nCELL_DATA 2\nSCALARS c float 1\nLOOKUP_TABLE default\n1 2\n");
+        "c.vtk",
+        "# vtk DataFile Version 3.0\nx\nASCII\nDATASET RECTILINEAR_GRID\nDIMENSIONS 2 2 3\nX_COORDINATES 2 float\n0 "
+        "1\nY_COORDINATES 2 "
+        "float\n0 1\nZ_COORDINATES 3 float\n0 1 5\nCELL_DATA 2\nSCALARS c float 1\nLOOKUP_TABLE default\n1 2\n");
     EXPECT_NEAR(totalVolume(readMesh(lines).mesh), 5.0, 1e-15);
 }
 
@@ -215,7 +239,8 @@ TEST(ReadRaw, SizeFromTheNameOrBehindIt) {
     const ReadResult named = readMesh(folder.write("head_2x3x4_uint8.raw", bytes));
     EXPECT_NEAR(totalVolume(named.mesh), 6.0, 1e-14);
     EXPECT_EQ(named.mesh.fields[0].values.back(), 230.0);
-    EXPECT_EQ(readMesh(folder.write("plain.raw", bytes) + ":2x3x2:uint16").mesh.fields[0].values[1], 20.0 + 256.0 * 30.0);
+    EXPECT_EQ(readMesh(folder.write("plain.raw", bytes) + ":2x3x2:uint16").mesh.fields[0].values[1],
+              20.0 + 256.0 * 30.0);
     EXPECT_EQ(readMesh(folder.write("guess_2x3x2.raw", bytes)).mesh.positions.size(), 12u);
     expectError([&] { readMesh(folder.file("plain.raw")); }, "put it behind the name");
     expectError([&] { readMesh(folder.file("plain.raw") + ":2x3x9:uint8"); }, "54");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Feeds validation with cells of any kind and any nonsense: whatever a reader returns must not break it, and what it lets
-// through must be a sound mesh.
+// Feeds validation with cells of any kind and any nonsense: whatever a reader returns must not break it, and what it
+// lets through must be a sound mesh.
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
@@ -60,7 +60,8 @@ void checkSound(const TetMesh& mesh) {
                 __builtin_trap();
             }
         }
-        if (!(sixVolumes(mesh.positions[cell[0]], mesh.positions[cell[1]], mesh.positions[cell[2]], mesh.positions[cell[3]]) > 0.0)) {
+        if (!(sixVolumes(mesh.positions[cell[0]], mesh.positions[cell[1]], mesh.positions[cell[2]],
+                         mesh.positions[cell[3]]) > 0.0)) {
             __builtin_trap();
         }
     }

@@ -74,7 +74,7 @@ TEST(Validation, InvertedCellsAreTurnedRound) {
 
 TEST(Validation, FlatCellsAreLeftOut) {
     CellSoup soup = smallSoup();
-    soup.connectivity[1] = soup.connectivity[0];  // a repeated point
+    soup.connectivity[1] = soup.connectivity[0];                // a repeated point
     appendCell(soup, cell_type::tetrahedron, Ids{0, 1, 5, 4});  // four points in a plane
     const ReadResult result = tetMeshFromSoup(soup);
     EXPECT_EQ(placesOf(result, Defect::FlatCell), (std::vector<std::uint64_t>{0, 135}));
@@ -223,9 +223,8 @@ TEST(MergePoints, JumpsOfTheFieldStayUnlessATolerance) {
 }
 
 TEST(SmoothCells, MeanOfTheCellsAroundEachPoint) {
-    CellSoup soup = cubeGrid(2, 5, straight, [](CellSoup& s, const std::array<std::uint32_t, 8>& c) {
-        appendCell(s, cell_type::voxel, c);
-    });
+    CellSoup soup = cubeGrid(
+        2, 5, straight, [](CellSoup& s, const std::array<std::uint32_t, 8>& c) { appendCell(s, cell_type::voxel, c); });
     soup.fields.push_back({"c", Association::Cell, 1, {1, 2, 3, 4, 5, 6, 7, 36}});
     ReadOptions options;
     options.smoothCells = true;
@@ -249,7 +248,8 @@ TEST(SelectScalar, ByNameComponentAndDefault) {
             vector.values.insert(vector.values.end(), {3.0 * x.x, 4.0 * x.x, 0.0});
         }
         result.mesh.fields.insert(result.mesh.fields.begin(), vector);
-        result.mesh.fields.insert(result.mesh.fields.begin(), {"ids", Association::Point, 1, std::vector<double>(64, 1.0), true});
+        result.mesh.fields.insert(result.mesh.fields.begin(),
+                                  {"ids", Association::Point, 1, std::vector<double>(64, 1.0), true});
         result.mesh.fields.push_back({"a:b", Association::Cell, 1, std::vector<double>(135, 2.0)});
         return result;
     };
@@ -272,8 +272,9 @@ TEST(SelectScalar, ByNameComponentAndDefault) {
 TEST(SelectScalar, NonFiniteCellsAreLeftOutAndCounted) {
     ReadResult result = tetMeshFromSoup(smallSoup());
     result.mesh.fields[0].values[0] = nan;
-    const std::size_t touching = static_cast<std::size_t>(std::count_if(
-        result.mesh.cells.begin(), result.mesh.cells.end(), [](const Tetrahedron& t) { return std::count(t.begin(), t.end(), 0u); }));
+    const std::size_t touching = static_cast<std::size_t>(
+        std::count_if(result.mesh.cells.begin(), result.mesh.cells.end(),
+                      [](const Tetrahedron& t) { return std::count(t.begin(), t.end(), 0u); }));
     MeshReport report;
     const ScalarSelection selection = selectScalar(std::move(result.mesh), "s", report);
     EXPECT_EQ(selection.nonFiniteCells, touching);

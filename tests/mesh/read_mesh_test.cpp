@@ -230,6 +230,43 @@ TEST(ReadVtk, ImagesRectilinearAndStructuredGrids) {
     EXPECT_NEAR(totalVolume(readMesh(lines).mesh), 5.0, 1e-15);
 }
 
+/// Two cubes side by side, with a temperature in each, as OpenFOAM keeps them.
+TEST(ReadVtk, OpenFoamCaseByFolderOrFile) {
+    const TemporaryFolder folder;
+    for (const char* part : {"system", "constant/polyMesh", "0"}) {
+        std::filesystem::create_directories(folder.file(part));
+    }
+    const auto write = [&](const std::string& name, const std::string& kind, const std::string& content) {
+        const std::string object = std::filesystem::path(name).filename().string();
+        folder.write(name, fmt::format("FoamFile {{ version 2.0; format ascii; class {}; object {}; }}\n{}\n", kind,
+                                       object, content));
+    };
+    write("system/controlDict", "dictionary",
+          "startFrom startTime; startTime 0; endTime 1; deltaT 1; writeControl timeStep; writeInterval 1; "
+          "timePrecision 6;");
+    write("constant/polyMesh/points", "vectorField",
+          "12\n(\n(0 0 0)\n(1 0 0)\n(2 0 0)\n(0 1 0)\n(1 1 0)\n(2 1 0)\n(0 0 1)\n(1 0 1)\n(2 0 1)\n(0 1 1)\n(1 1 1)\n"
+          "(2 1 1)\n)");
+    write("constant/polyMesh/faces", "faceList",
+          "11\n(\n4(1 4 10 7)\n4(0 6 9 3)\n4(0 1 7 6)\n4(3 9 10 4)\n4(0 3 4 1)\n4(6 7 10 9)\n4(2 5 11 8)\n4(1 2 8 7)\n"
+          "4(4 10 11 5)\n4(1 4 5 2)\n4(7 8 11 10)\n)");
+    write("constant/polyMesh/owner", "labelList", "11\n(\n0\n0\n0\n0\n0\n0\n1\n1\n1\n1\n1\n)");
+    write("constant/polyMesh/neighbour", "labelList", "1\n(\n1\n)");
+    write("constant/polyMesh/boundary", "polyBoundaryMesh", "1\n(\nwalls { type wall; nFaces 10; startFace 1; }\n)");
+    write("0/T", "volScalarField",
+          "dimensions [0 0 0 1 0 0 0];\ninternalField nonuniform List<scalar> 2\n(\n300\n400\n);\n"
+          "boundaryField { walls { type zeroGradient; } }");
+    for (const std::string& source :
+         {folder.write("case.foam", "any"), folder.file("."), folder.file("system/controlDict")}) {
+        const ReadResult result = readMesh(source);
+        EXPECT_EQ(result.mesh.cells.size(), 12u) << source;
+        EXPECT_NEAR(totalVolume(result.mesh), 2.0, 1e-14);
+        EXPECT_EQ(result.mesh.fields.at(0).name, "T");
+        EXPECT_EQ(result.mesh.fields[0].values.front(), 300.0);
+        EXPECT_EQ(result.mesh.fields[0].values.back(), 400.0);
+    }
+}
+
 TEST(ReadRaw, SizeFromTheNameOrBehindIt) {
     const TemporaryFolder folder;
     std::string bytes(2 * 3 * 4, '\0');

@@ -6,6 +6,7 @@
 /// its pieces; a cell's pixels do so together, those along which the scalar rises upwards and the others downwards.
 #include <projection/cpu_simd.h>
 
+#include <projection/cpu_tile.h>
 #include <projection/cpu_transfer.h>
 
 #if defined(TETRALUX_CPU_SEGMENT_H) == defined(HWY_TARGET_TOGGLE)
@@ -74,15 +75,16 @@ struct DepthSink {
 /// Segments too deep for the polynomials: cut into parts of equal depth up to where nothing more is seen.
 template <class Sink>
 HWY_NOINLINE void addDeepPiece(const TransferPiece& piece, real middle, real half, real depth, real halfStep, Sink& sink) {
-    constexpr float seen = 16.0f;  // exp(−16) = 1e-7
+    constexpr float seen = 14.0f;  // exp(−14) < leastTransmittance
     const real tame = min(real(1.0f), real(1e12f) / max(depth, real(1e-30f)));  // squares of more leave the range of float
     const real front = max((depth - halfStep) * tame, real(0.0f)), back = max((depth + halfStep) * tame, real(0.0f));
     const real whole = depth * tame, shown = min(whole, real(seen));
-    // half of the depth limit: a part that begins without extinction has |δ| = D
-    const int parts = std::max(1, static_cast<int>(std::ceil(largest(shown) / 0.5f)));
+    // The first part is half as deep as the others: one that begins without extinction has |δ| = D. Farther on |δ| < D/5.
+    const int parts = std::max(1, static_cast<int>(std::ceil(largest(shown) + 0.5f)));
+    const float perPart = 1.0f / (static_cast<float>(parts) - 0.5f);
     real begin(0.0f);
     for (int i = 1; i <= parts; ++i) {
-        real end = pieceFraction(front, back, shown * real(static_cast<float>(i) / static_cast<float>(parts)));
+        real end = pieceFraction(front, back, shown * real((static_cast<float>(i) - 0.5f) * perPart));
         if (i == parts) end = select(whole > real(seen), end, real(1.0f));
         const real width = end - begin, centre = begin + end;  // centre: −1 … 1 after − 1
         const real slope = back - front;
@@ -92,6 +94,7 @@ HWY_NOINLINE void addDeepPiece(const TransferPiece& piece, real middle, real hal
         const real skew = pieceSkew(min(d, real(1.0f)), clamp(step, real(-0.5f), real(0.5f)));
         const real at = middle + half * (centre - real(1.0f));
         sink.add(piece, opacity, at * opacity + half * width * skew);
+        if (none(sink.t > real(leastTransmittance))) break;
         begin = end;
     }
 }

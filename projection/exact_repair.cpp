@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <projection/exact_repair.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
+#include <projection/cell_setup.h>
+#include <projection/float_limits.h>
 #include <projection/reference_ray_caster.h>
 
 namespace tetralux::projection {
@@ -13,10 +16,15 @@ namespace {
 class RepairedEngine final : public Engine {
 public:
     RepairedEngine(std::unique_ptr<Engine> engine, const Scene& scene)
-        : engine_(std::move(engine)), caster_(scene) {}
+        : engine_(std::move(engine)), scene_(scene), caster_(scene) {
+        const bool dense = scene.settings.mode != Mode::Mip && scene.settings.mode != Mode::Average;
+        if (dense && engine_->name() != "reference")
+            beyondFloat_ = cellsBeyondFloat(*scene.mesh, scene.transferFunction, integralOf(scene.settings.mode));
+    }
 
     Image render(const Camera& camera, FrameReport& report) override {
         Image image = engine_->render(camera, report);
+        if (!beyondFloat_.empty()) doubtCellsBeyondFloat(camera, report);
         if (report.doubtfulPixels.empty()) return image;
         const auto start = std::chrono::steady_clock::now();
         caster_.renderPixels(camera, report.doubtfulPixels, image);
@@ -34,7 +42,27 @@ public:
     const preint::PreintegrationTable* table() const override { return engine_->table(); }
 
 private:
+    void doubtCellsBeyondFloat(const Camera& camera, FrameReport& report) const {
+        const CellProjector projector(*scene_.mesh, sceneUnits(*scene_.mesh), cameraFrame(camera));
+        const auto width = static_cast<std::uint32_t>(camera.width);
+        std::vector<bool> doubtful(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
+        for (std::uint32_t pixel : report.doubtfulPixels) doubtful[pixel] = true;
+        for (mesh::CellIndex cell : beyondFloat_) {
+            PixelRect rect;
+            if (projector.bounds(cell, rect) == SkipReason::OutsideView) continue;
+            // one pixel more all round: where such a cell ends is beyond float too
+            for (int y = std::max(0, rect.y0 - 1); y < std::min(camera.height, rect.y1 + 1); ++y)
+                for (int x = std::max(0, rect.x0 - 1); x < std::min(camera.width, rect.x1 + 1); ++x)
+                    doubtful[static_cast<std::uint32_t>(y) * width + static_cast<std::uint32_t>(x)] = true;
+        }
+        report.doubtfulPixels.clear();
+        for (std::uint32_t pixel = 0; pixel < doubtful.size(); ++pixel)
+            if (doubtful[pixel]) report.doubtfulPixels.push_back(pixel);
+    }
+
     std::unique_ptr<Engine> engine_;
+    Scene scene_;
+    std::vector<mesh::CellIndex> beyondFloat_;
     ReferenceRayCaster caster_;
 };
 

@@ -13,6 +13,9 @@ namespace tetralux::projection {
 
 namespace {
 
+/// Pixels beside a cell's rectangle in which float planes of a flat cell may be evaluated.
+constexpr int blockMargin = 16;
+
 class RepairedEngine final : public Engine {
 public:
     RepairedEngine(std::unique_ptr<Engine> engine, const Scene& scene)
@@ -50,9 +53,9 @@ private:
         for (mesh::CellIndex cell : beyondFloat_) {
             PixelRect rect;
             if (projector.bounds(cell, rect) == SkipReason::OutsideView) continue;
-            // one pixel more all round: where such a cell ends is beyond float too
-            for (int y = std::max(0, rect.y0 - 1); y < std::min(camera.height, rect.y1 + 1); ++y)
-                for (int x = std::max(0, rect.x0 - 1); x < std::min(camera.width, rect.x1 + 1); ++x)
+            // where such a cell ends is beyond float too, and engines look at whole blocks of pixels
+            for (int y = std::max(0, rect.y0 - blockMargin); y < std::min(camera.height, rect.y1 + blockMargin); ++y)
+                for (int x = std::max(0, rect.x0 - blockMargin); x < std::min(camera.width, rect.x1 + blockMargin); ++x)
                     doubtful[static_cast<std::uint32_t>(y) * width + static_cast<std::uint32_t>(x)] = true;
         }
         report.doubtfulPixels.clear();

@@ -174,7 +174,7 @@ TEST_F(RenderCommand, InfoTellsCellsFieldsAndDefects) {
     const nlohmann::json info = nlohmann::json::parse(tetralux("info bucky:5 --json").out);
     EXPECT_EQ(info["tetrahedra"], 320);
     EXPECT_EQ(info["fields"][0]["name"], "density");
-    EXPECT_EQ(info["fields"][0]["range"][0][1], 1.0);
+    EXPECT_EQ(info["fields"][0]["max"], 1.0);
 
     TinyMesh mesh = cornerTetrahedron(5);
     mesh.cells.push_back({0, 1, 2, 2});

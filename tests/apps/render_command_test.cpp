@@ -129,6 +129,14 @@ TEST_F(RenderCommand, DefaultViewHoldsTheWholeMesh) {
     }
 }
 
+TEST_F(RenderCommand, VerifyMeasuresTheError) {
+    expectGood(
+        "render bucky:6 -o a.exr --size 16x16 --engine reference --verify 40 --background 1,1,1 --report r.json");
+    const nlohmann::json report = json("r.json");
+    EXPECT_EQ(report["verification"]["pixels"], 40);
+    EXPECT_LT(report["verification"]["max"], 1e-6) << "the reference against itself, in single precision";
+}
+
 TEST_F(RenderCommand, QuietSaysNothing) {
     const Outcome outcome = tetralux("render bucky:4 -o a.png --size 8x8 --engine reference --frames 2 --quiet");
     EXPECT_EQ(outcome.status, 0);

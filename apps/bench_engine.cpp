@@ -17,6 +17,7 @@
 #include <apps/bench_memory.h>
 #include <apps/bench_scene.h>
 #include <apps/bench_statistics.h>
+#include <apps/stopwatch.h>
 
 namespace tetralux::apps {
 
@@ -25,16 +26,6 @@ namespace {
 using projection::Engine;
 using projection::FrameReport;
 using projection::Image;
-
-class Stopwatch {
-public:
-    double milliseconds() const {
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Processor time of all threads of this process so far.
 double processorMilliseconds() {

@@ -12,22 +12,13 @@
 
 #include <mesh/read_mesh.h>
 #include <preint/transfer_function.h>
+#include <apps/stopwatch.h>
 
 namespace tetralux::apps {
 
 namespace {
 
 constexpr std::uint32_t verificationSeed = 1;  // the same pixels in every run
-
-class Stopwatch {
-public:
-    double milliseconds() const {
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Without --tf: colours that stand out from black at either end, and some extinction everywhere, so that the whole
 /// mesh shows.

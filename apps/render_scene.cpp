@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <apps/stopwatch.h>
 #include <mesh/read_mesh.h>
 #include <preint/transfer_function.h>
-#include <apps/stopwatch.h>
 
 namespace tetralux::apps {
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numeric>
 
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
+#include <glm/geometric.hpp>
 
 #include <projection/cell_setup.h>
 #include <projection/edge_side.h>
@@ -157,7 +157,9 @@ private:
         if (behind && !frame_.orthographic) return {0, 0, frame_.width, frame_.height};
         low += frame_.centre - sampleShift;
         high += frame_.centre - sampleShift;
-        auto inside = [](double v, int limit) { return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(limit))); };
+        auto inside = [](double v, int limit) {
+            return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(limit)));
+        };
         return {inside(std::ceil(low.x), frame_.width), inside(std::ceil(low.y), frame_.height),
                 inside(std::floor(high.x) + 1, frame_.width), inside(std::floor(high.y) + 1, frame_.height)};
     }
@@ -174,14 +176,20 @@ private:
 
     void scanBand(int band, Reentry& found) const {
         const int y0 = band * bandRows, y1 = std::min(y0 + bandRows, frame_.height);
-        std::vector<std::vector<Event>> pixels(static_cast<std::size_t>(frame_.width) * static_cast<std::size_t>(y1 - y0));
+        std::vector<std::vector<Event>> pixels(static_cast<std::size_t>(frame_.width) *
+                                               static_cast<std::size_t>(y1 - y0));
         for (const auto& [face, rect] : bands_[static_cast<std::size_t>(band)])
             for (int y = std::max(rect.y0, y0); y < std::min(rect.y1, y1); ++y)
                 for (int x = rect.x0; x < rect.x1; ++x)
-                    meet(boundary_[face], x, y, pixels[static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(frame_.width) + static_cast<std::size_t>(x)]);
+                    meet(boundary_[face], x, y,
+                         pixels[static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(frame_.width) +
+                                static_cast<std::size_t>(x)]);
         for (std::size_t i = 0; i < pixels.size(); ++i)
             if (!pixels[i].empty())
-                walk(pixels[i], static_cast<std::uint32_t>(static_cast<std::size_t>(y0) * static_cast<std::size_t>(frame_.width) + i), found);
+                walk(pixels[i],
+                     static_cast<std::uint32_t>(static_cast<std::size_t>(y0) * static_cast<std::size_t>(frame_.width) +
+                                                i),
+                     found);
     }
 
     /// Appends where the ray of pixel (x, y) passes the face, by the sides of its edges.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
 /// Where rays leave a nonconvex mesh and come back: the order across gaps, sampled at pixel centres (Cook, Max, Silva &
-/// Williams, "Image-Space Visibility Ordering for Cell Projection Volume Rendering of Unstructured Data", 2004). An image shows
-/// the mesh at pixel centres only, so relations sampled there order everything that can be seen.
+/// Williams, "Image-Space Visibility Ordering for Cell Projection Volume Rendering of Unstructured Data", 2004). An
+/// image shows the mesh at pixel centres only, so relations sampled there order everything that can be seen.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ struct BoundaryFace {
 
 std::vector<BoundaryFace> boundaryFaces(const mesh::Adjacency& adjacency);
 
-/// True when the boundary is one closed surface that is nowhere concave: then every ray meets the mesh in one interval. Tolerance
-/// 1e-9 of the edge lengths.
+/// True when the boundary is one closed surface that is nowhere concave: then every ray meets the mesh in one interval.
+/// Tolerance 1e-9 of the edge lengths.
 bool boundaryIsConvex(const mesh::ScalarMesh& mesh, const std::vector<BoundaryFace>& boundary);
 
 struct Reentry {

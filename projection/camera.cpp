@@ -15,7 +15,9 @@ namespace {
 
 constexpr int largestSize = 16384;
 
-bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 /// Unit vector, also for lengths whose square leaves the range of double; zero for zero.
 glm::dvec3 unit(const glm::dvec3& v) {
@@ -23,7 +25,9 @@ glm::dvec3 unit(const glm::dvec3& v) {
     return largest > 0 ? glm::normalize(v / largest) : glm::dvec3(0);
 }
 
-double tangentOfHalfFov(const Camera& camera) { return std::tan(camera.fovDegrees * std::numbers::pi / 360.0); }
+double tangentOfHalfFov(const Camera& camera) {
+    return std::tan(camera.fovDegrees * std::numbers::pi / 360.0);
+}
 
 }  // namespace
 
@@ -74,7 +78,8 @@ glm::dvec3 threeQuarterEye(const mesh::BoundingBox& bounds, const Camera& camera
     double halfAngle = std::atan(tangentOfHalfFov(camera) * aspect);
     double distance = camera.orthographic() ? 2.0 * radius : radius / std::sin(halfAngle);
     // up along the direction of view would leave the picture without orientation: step aside
-    if (glm::length(glm::cross(direction, unit(camera.up))) < 1e-3) direction = glm::normalize(glm::dvec3(1.5, 1.0, 0.7));
+    if (glm::length(glm::cross(direction, unit(camera.up))) < 1e-3)
+        direction = glm::normalize(glm::dvec3(1.5, 1.0, 0.7));
     return bounds.centre() + distance * direction;
 }
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
 
 namespace tetralux::projection {
 
@@ -49,10 +49,14 @@ preint::TransferFunction inSceneUnits(const preint::TransferFunction& function, 
 
 const char* skipReasonName(SkipReason reason) {
     switch (reason) {
-        case SkipReason::None: return "none";
-        case SkipReason::OutsideView: return "outside view";
-        case SkipReason::NoPixelCentre: return "no pixel centre";
-        case SkipReason::Invisible: return "invisible by transfer function";
+        case SkipReason::None:
+            return "none";
+        case SkipReason::OutsideView:
+            return "outside view";
+        case SkipReason::NoPixelCentre:
+            return "no pixel centre";
+        case SkipReason::Invisible:
+            return "invisible by transfer function";
     }
     return "";
 }
@@ -196,7 +200,7 @@ CellRecord CellProjector::record(mesh::CellIndex cell, const PixelRect& rect) co
     }
     const double lateral = orthographic ? 1.0 : depth;  // camera-space x per pixel at depth
     const glm::dvec3 perDepth = orthographic ? glm::dvec3(0, 0, 1) : glm::dvec3(image, 1.0);  // d(camera point)/dz
-    const double rhoToDepth = orthographic ? std::abs(depth) : depth;  // −dz/drho at c
+    const double rhoToDepth = orthographic ? std::abs(depth) : depth;                         // −dz/drho at c
 
     CellRecord record;
     int frontMask = 0;
@@ -217,8 +221,8 @@ CellRecord CellProjector::record(mesh::CellIndex cell, const PixelRect& rect) co
     std::array<double, 4> s;
     for (std::size_t k = 0; k < 4; ++k) s[k] = units_.toUnit(mesh_.scalarAt(cell, static_cast<int>(k)));
     // from differences, so that a constant scalar has exactly no gradient
-    const glm::dvec3 gradient = (s[1] - s[0]) * forms.gradient[1] + (s[2] - s[0]) * forms.gradient[2] +
-                                (s[3] - s[0]) * forms.gradient[3];
+    const glm::dvec3 gradient =
+        (s[1] - s[0]) * forms.gradient[1] + (s[2] - s[0]) * forms.gradient[2] + (s[3] - s[0]) * forms.gradient[3];
     record.scalar = static_cast<float>(s[0] + (s[1] - s[0]) * atReference[1] + (s[2] - s[0]) * atReference[2] +
                                        (s[3] - s[0]) * atReference[3]);
     record.scalarPerX = static_cast<float>(lateral * gradient.x);
@@ -236,7 +240,9 @@ CellRecord CellProjector::record(mesh::CellIndex cell, const PixelRect& rect) co
     return record;
 }
 
-std::array<double, 4> CellProjector::eyeCoordinates(mesh::CellIndex cell) const { return linearForms(cell).eye; }
+std::array<double, 4> CellProjector::eyeCoordinates(mesh::CellIndex cell) const {
+    return linearForms(cell).eye;
+}
 
 CellGradient CellProjector::gradient(mesh::CellIndex cell) const {
     // in scene units first: |g|² of a mesh of size 1e-15 leaves the range of double otherwise

@@ -38,14 +38,14 @@ inline constexpr glm::dvec2 sampleShift{0x1p-14, 0x1p-15};
 /// One projected cell. Std430 layout of six vec4; the shader's struct mirrors it. The reference point c is the
 /// centroid, or for cells that reach behind the eye a point of the visible rectangle at half their largest depth.
 struct CellRecord {
-    float plane[4][3];      ///< rho of face k = plane[k][0] + plane[k][1]·dx + plane[k][2]·dy
-    float frontMask;        ///< Σ 2^k over faces that bound rho from above (0 … 15), a whole number
-    float pixelX, pixelY;   ///< whole pixel nearest to the projection of c
+    float plane[4][3];           ///< rho of face k = plane[k][0] + plane[k][1]·dx + plane[k][2]·dy
+    float frontMask;             ///< Σ 2^k over faces that bound rho from above (0 … 15), a whole number
+    float pixelX, pixelY;        ///< whole pixel nearest to the projection of c
     float fractionX, fractionY;  ///< dx = (x − pixelX) − fractionX, likewise dy
-    float scalar;           ///< at c, scene units
+    float scalar;                ///< at c, scene units
     float scalarPerX, scalarPerY, scalarPerRho;
     float scalarLow, scalarHigh;  ///< over the cell's vertices, scene units
-    float scale;            ///< z_c, scene lengths; orthographic: may be negative, L = |scale|
+    float scale;                  ///< z_c, scene lengths; orthographic: may be negative, L = |scale|
 };
 static_assert(sizeof(CellRecord) == 24 * sizeof(float));
 
@@ -85,12 +85,12 @@ public:
     /// The cell's projected corners in pixel coordinates when all four lie in front of the eye; nothing otherwise.
     std::optional<std::array<glm::dvec2, 4>> corners(mesh::CellIndex cell) const;
 
-    /// True when a face of the cell shows its outside to the eye (perspective: eye on the outer side of its plane). Both
-    /// cells of a face give opposite answers.
+    /// True when a face of the cell shows its outside to the eye (perspective: eye on the outer side of its plane).
+    /// Both cells of a face give opposite answers.
     bool faceIsFront(mesh::CellIndex cell, int face) const;
 
-    /// Barycentric coordinates λ_k of the eye in the cell (orthographic: rates of λ_k towards the eye, per mesh length):
-    /// what PowerOrder's keys weight the heights by.
+    /// Barycentric coordinates λ_k of the eye in the cell (orthographic: rates of λ_k towards the eye, per mesh
+    /// length): what PowerOrder's keys weight the heights by.
     std::array<double, 4> eyeCoordinates(mesh::CellIndex cell) const;
 
     CellGradient gradient(mesh::CellIndex cell) const;
@@ -104,8 +104,8 @@ private:
     const mesh::ScalarMesh& mesh_;
     SceneUnits units_;
     CameraFrame frame_;
-    /// Per mesh point, relative to the eye: x and y in pixels times depth (pixels when orthographic), z the depth. The ray
-    /// of pixel (x, y) is z·(x − centre.x, y − centre.y, 1), or (x − centre.x, y − centre.y, z).
+    /// Per mesh point, relative to the eye: x and y in pixels times depth (pixels when orthographic), z the depth. The
+    /// ray of pixel (x, y) is z·(x − centre.x, y − centre.y, 1), or (x − centre.x, y − centre.y, z).
     std::vector<glm::dvec3> cameraPoints_;
 };
 

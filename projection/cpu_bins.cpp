@@ -52,7 +52,8 @@ void TileBins::sort() {
 
 void sortEntries(std::span<TileEntry> entries, std::vector<TileEntry>& scratch) {
     if (entries.size() < 64) {
-        std::stable_sort(entries.begin(), entries.end(), [](const TileEntry& a, const TileEntry& b) { return a.key < b.key; });
+        std::stable_sort(entries.begin(), entries.end(),
+                         [](const TileEntry& a, const TileEntry& b) { return a.key < b.key; });
         return;
     }
     constexpr unsigned digitBits = 11, passes = 3;

@@ -22,9 +22,10 @@ public:
     void reset(std::size_t chunks, int tilesX, int tilesY);
     std::uint32_t* counts(std::size_t chunk) { return places_.data() + chunk * tiles_; }
 
-    /// Lists every survivor in each tile of its rectangle, as many as were counted, in the order of the chunks: the same for any number of threads.
-    /// Keys become whole numbers that ascend from `nearest` down to `farthest`.
-    void fill(const std::vector<Survivor>& survivors, const std::vector<SurvivorChunk>& chunks, double nearest, double farthest);
+    /// Lists every survivor in each tile of its rectangle, as many as were counted, in the order of the chunks: the
+    /// same for any number of threads. Keys become whole numbers that ascend from `nearest` down to `farthest`.
+    void fill(const std::vector<Survivor>& survivors, const std::vector<SurvivorChunk>& chunks, double nearest,
+              double farthest);
 
     /// Sorts each tile's list by key; equal keys keep their order.
     void sort();
@@ -37,8 +38,9 @@ public:
 private:
     std::size_t tiles_ = 0, tilesX_ = 0;
     std::vector<TileEntry> entries_;
-    std::vector<std::uint64_t> start_;    ///< of each tile's list, and the end
-    std::vector<std::uint32_t> places_;   ///< per chunk and tile: how many, then where within the tile's list its next entry goes
+    std::vector<std::uint64_t> start_;  ///< of each tile's list, and the end
+    std::vector<std::uint32_t>
+        places_;  ///< per chunk and tile: how many, then where within the tile's list its next entry goes
 };
 
 /// Sorts by key, stable, in place; `scratch` keeps its memory. Meant for lists that fit a core's own cache.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Setup of eight cells at once for one tile: corners to planes, in doubles, one lane per cell. Included once per instruction set.
+/// Setup of eight cells at once for one tile: corners to planes, in doubles, one lane per cell. Included once per
+/// instruction set.
 ///
-/// Records are made where they are used and never stored: a cell is set up again in every tile that it meets (1.2 to 2 times), which costs less than
-/// writing and reading back 100 bytes per cell, and cells behind an opaque tile are never set up at all.
+/// Records are made where they are used and never stored: a cell is set up again in every tile that it meets (1.2 to 2
+/// times), which costs less than writing and reading back 100 bytes per cell, and cells behind an opaque tile are never
+/// set up at all.
 #include <projection/cpu_simd.h>
 
 #include <projection/cpu_special_cell.h>
@@ -65,19 +67,22 @@ HWY_INLINE void storeFloats(wide value, float* to) {
     hn::StoreU(hn::DemoteTo(HalfFloatTag(), value.v), HalfFloatTag(), to);
 }
 
-/// Rectangles within the tile from the corners' pixels, as (x, y) pairs in float lanes; true when a corner lies behind the eye.
-HWY_INLINE bool batchRectangles(const TileFrame& frame, const hn::Vec<DoubleTag> (&pixels)[4], int tileX, int tileY, std::size_t j,
-                                CellBatch& batch) {
+/// Rectangles within the tile from the corners' pixels, as (x, y) pairs in float lanes; true when a corner lies behind
+/// the eye.
+HWY_INLINE bool batchRectangles(const TileFrame& frame, const hn::Vec<DoubleTag> (&pixels)[4], int tileX, int tileY,
+                                std::size_t j, CellBatch& batch) {
     const hn::Repartition<float, DoubleTag> pairs;
     const hn::RebindToSigned<decltype(pairs)> ints;
-    const auto p0 = hn::BitCast(pairs, pixels[0]), p1 = hn::BitCast(pairs, pixels[1]), p2 = hn::BitCast(pairs, pixels[2]),
-               p3 = hn::BitCast(pairs, pixels[3]);
+    const auto p0 = hn::BitCast(pairs, pixels[0]), p1 = hn::BitCast(pairs, pixels[1]),
+               p2 = hn::BitCast(pairs, pixels[2]), p3 = hn::BitCast(pairs, pixels[3]);
     const auto low = hn::Min(hn::Min(p0, p1), hn::Min(p2, p3)), high = hn::Max(hn::Max(p0, p1), hn::Max(p2, p3));
     const auto pad = hn::Set(pairs, pixelPadding(frame.width, frame.height));
-    const auto origin = hn::BitCast(pairs, hn::Set(hn::Repartition<std::uint64_t, DoubleTag>(), packedPair(tileX, tileY)));
+    const auto origin =
+        hn::BitCast(pairs, hn::Set(hn::Repartition<std::uint64_t, DoubleTag>(), packedPair(tileX, tileY)));
     const auto zero = hn::Zero(pairs), size = hn::Set(pairs, static_cast<float>(cpuTileSize));
     const auto begin = hn::Min(hn::Max(hn::Sub(hn::Ceil(hn::Sub(low, pad)), origin), zero), size);
-    const auto end = hn::Min(hn::Max(hn::Sub(hn::Floor(hn::Add(high, pad)), hn::Sub(origin, hn::Set(pairs, 1.0f))), zero), size);
+    const auto end =
+        hn::Min(hn::Max(hn::Sub(hn::Floor(hn::Add(high, pad)), hn::Sub(origin, hn::Set(pairs, 1.0f))), zero), size);
     hn::StoreU(hn::ConvertTo(ints, begin), ints, &batch.begin[j][0]);
     hn::StoreU(hn::ConvertTo(ints, end), ints, &batch.end[j][0]);
     const auto sum = hn::Add(hn::Add(p0, p1), hn::Add(p2, p3));  // NaN where one is
@@ -105,7 +110,8 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
     const HalfFloatTag half;
     hn::Vec<HalfFloatTag> scalars[4];
     for (std::size_t k = 0; k < 4; ++k) {
-        scalars[k] = hn::GatherIndex(half, frame.scalars, hn::LoadU(HalfIntTag(), frame.cellData ? &corners.cell[j] : &corners.point[k][j]));
+        scalars[k] = hn::GatherIndex(half, frame.scalars,
+                                     hn::LoadU(HalfIntTag(), frame.cellData ? &corners.cell[j] : &corners.point[k][j]));
         s[k] = hn::PromoteTo(tag, scalars[k]);
     }
     const auto low = hn::Min(hn::Min(scalars[0], scalars[1]), hn::Min(scalars[2], scalars[3]));
@@ -119,15 +125,18 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
     const auto cell = projectCell<wide, Orthographic>(forms, reference, s);
 
     const wide zero(0.0);
-    const auto odd = hn::Ne(hn::PromoteTo(DoubleIndexTag(), hn::LoadU(HalfIntTag(), &corners.odd[j])), hn::Zero(DoubleIndexTag()));
+    const auto odd =
+        hn::Ne(hn::PromoteTo(DoubleIndexTag(), hn::LoadU(HalfIntTag(), &corners.odd[j])), hn::Zero(DoubleIndexTag()));
     auto fronts = hn::Zero(DoubleIndexTag());
     for (std::size_t k = 0; k < 4; ++k) {
         const auto inside = hn::RebindMask(DoubleIndexTag(), forms.eye[k] < zero);
-        fronts = hn::Or(fronts, hn::IfThenElseZero(hn::Xor(inside, odd), hn::Set(DoubleIndexTag(), std::int64_t{1} << k)));
+        fronts =
+            hn::Or(fronts, hn::IfThenElseZero(hn::Xor(inside, odd), hn::Set(DoubleIndexTag(), std::int64_t{1} << k)));
         for (std::size_t i = 0; i < 3; ++i) storeFloats(cell.plane[k][i], &batch.plane[k][i][j]);
     }
     const hn::Rebind<std::uint32_t, DoubleTag> narrow;
-    hn::StoreU(hn::TruncateTo(narrow, hn::BitCast(hn::RebindToUnsigned<DoubleTag>(), fronts)), narrow, &batch.frontMask[j]);
+    hn::StoreU(hn::TruncateTo(narrow, hn::BitCast(hn::RebindToUnsigned<DoubleTag>(), fronts)), narrow,
+               &batch.frontMask[j]);
     storeFloats(cell.scalar, &batch.scalar[j]);
     storeFloats(cell.scalarPerX, &batch.scalarPerX[j]);
     storeFloats(cell.scalarPerY, &batch.scalarPerY[j]);
@@ -136,8 +145,10 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
     storeFloats(wide(tileX - frame.centre.x) - reference.imageX, &batch.offsetX[j]);
     storeFloats(wide(tileY - frame.centre.y) - reference.imageY, &batch.offsetY[j]);
 
-    const wide nearest = min(min(p[0].z, p[1].z), min(p[2].z, p[3].z)), deepest = max(max(p[0].z, p[1].z), max(p[2].z, p[3].z));
-    const auto depths = depthBounds<wide, Orthographic>(frame.depthReference, reference.depth, reference.perDepth, nearest, deepest);
+    const wide nearest = min(min(p[0].z, p[1].z), min(p[2].z, p[3].z)),
+               deepest = max(max(p[0].z, p[1].z), max(p[2].z, p[3].z));
+    const auto depths =
+        depthBounds<wide, Orthographic>(frame.depthReference, reference.depth, reference.perDepth, nearest, deepest);
     storeFloats(depths.rhoNear, &batch.rhoNear[j]);
     storeFloats(depths.rhoFar, &batch.rhoFar[j]);
     storeFloats(depths.nearnessPerRho, &batch.nearnessPerRho[j]);
@@ -174,7 +185,8 @@ HWY_INLINE std::size_t setUpBatch(const TileFrame& frame, int tileX, int tileY, 
         special |= setUpLanes<Orthographic, Gradients>(frame, tileX, tileY, corners, j, batch);
     if (HWY_UNLIKELY(special))
         for (std::size_t j = 0; j < cells; ++j) {
-            const std::int32_t points[4] = {corners.point[0][j], corners.point[1][j], corners.point[2][j], corners.point[3][j]};
+            const std::int32_t points[4] = {corners.point[0][j], corners.point[1][j], corners.point[2][j],
+                                            corners.point[3][j]};
             setUpCellAtEye(frame, tileX, tileY, points, entries[j].cell, corners.odd[j] != 0, j, batch);
         }
     return cells;

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
 
 #include <projection/cpu_special_cell.h>
 
@@ -20,11 +20,13 @@ constexpr double farthestPixel = 1e9;
 
 }  // namespace
 
-void projectPoints(const mesh::ScalarMesh& mesh, const SceneUnits& units, const CameraFrame& frame, std::vector<CpuPoint>& points) {
+void projectPoints(const mesh::ScalarMesh& mesh, const SceneUnits& units, const CameraFrame& frame,
+                   std::vector<CpuPoint>& points) {
     points.resize(mesh.positions.size());
     const double perLength = 1.0 / units.length, pixel = glm::length(frame.perPixelRight);
     const glm::dvec3 right = frame.right * (frame.orthographic ? 1.0 / pixel : perLength / pixel),
-                     down = -frame.up * (frame.orthographic ? 1.0 / pixel : perLength / pixel), forward = frame.forward * perLength;
+                     down = -frame.up * (frame.orthographic ? 1.0 / pixel : perLength / pixel),
+                     forward = frame.forward * perLength;
     const glm::dvec2 centre = frame.centre - sampleShift;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 4096), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// First stages of a frame: points before the camera, the cells that can be seen, their tiles and their place in the order.
+/// First stages of a frame: points before the camera, the cells that can be seen, their tiles and their place in the
+/// order.
 #pragma once
 
 #include <array>
@@ -26,30 +27,32 @@ struct CullCounts {
     double nearest = -std::numeric_limits<double>::infinity(), farthest = -nearest;  ///< largest and smallest key
 };
 
-/// Where the keys of a frame come from: the value at `eye` of a linear function per cell, or the cell's place counted from the front; neither: all
-/// keys are 0.
+/// Where the keys of a frame come from: the value at `eye` of a linear function per cell, or the cell's place counted
+/// from the front; neither: all keys are 0.
 struct KeySource {
     const glm::dvec4* planes = nullptr;
     glm::dvec4 eye{0};
     const std::uint32_t* places = nullptr;
 
     double keyOf(mesh::CellIndex cell) const {
-        if (planes) return planes[cell].x * eye.x + planes[cell].y * eye.y + planes[cell].z * eye.z + planes[cell].w * eye.w;
+        if (planes)
+            return planes[cell].x * eye.x + planes[cell].y * eye.y + planes[cell].z * eye.z + planes[cell].w * eye.w;
         return places ? -static_cast<double>(places[cell]) : 0.0;
     }
 };
 
 /// Points of the mesh before a camera. `points` keeps its memory.
-void projectPoints(const mesh::ScalarMesh& mesh, const SceneUnits& units, const CameraFrame& frame, std::vector<CpuPoint>& points);
+void projectPoints(const mesh::ScalarMesh& mesh, const SceneUnits& units, const CameraFrame& frame,
+                   std::vector<CpuPoint>& points);
 
 /// What cullCells reads and where it writes.
 struct CullTask {
     const mesh::CellIndex* visible;  ///< the cells that the transfer function shows; nullptr: all
     std::size_t begin, end;          ///< of `visible`, or of all cells
     KeySource keys;
-    Survivor* survivors;             ///< room for end − begin
+    Survivor* survivors;  ///< room for end − begin
     int tilesX;
-    std::uint32_t* tileCounts;       ///< one more for each tile that a survivor meets
+    std::uint32_t* tileCounts;  ///< one more for each tile that a survivor meets
 };
 
 /// Cells that can be seen, in order; their number.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Which cells can be seen, in SIMD lanes over cells: the rectangle of the corners' pixels against the image and against pixel centres.
+/// Which cells can be seen, in SIMD lanes over cells: the rectangle of the corners' pixels against the image and
+/// against pixel centres.
 #include <projection/cpu_targets.h>
 
 #undef HWY_TARGET_INCLUDE
@@ -58,12 +59,14 @@ HWY_INLINE GroupBits rectanglesOf(const TileFrame& frame, hn::Vec<IntTag> cells,
         sum = k == 0 ? x : hn::Add(sum, x);
     }
     const auto pad = hn::Set(tag, pixelPadding(frame.width, frame.height)), zero = hn::Zero(tag);
-    const auto lastX = hn::Set(tag, static_cast<float>(frame.width - 1)), lastY = hn::Set(tag, static_cast<float>(frame.height - 1));
+    const auto lastX = hn::Set(tag, static_cast<float>(frame.width - 1)),
+               lastY = hn::Set(tag, static_cast<float>(frame.height - 1));
     lowX = hn::Sub(lowX, pad);
     lowY = hn::Sub(lowY, pad);
     highX = hn::Add(highX, pad);
     highY = hn::Add(highY, pad);
-    const auto inside = hn::And(hn::And(hn::Ge(highX, zero), hn::Ge(highY, zero)), hn::And(hn::Le(lowX, lastX), hn::Le(lowY, lastY)));
+    const auto inside =
+        hn::And(hn::And(hn::Ge(highX, zero), hn::Ge(highY, zero)), hn::And(hn::Le(lowX, lastX), hn::Le(lowY, lastY)));
     const auto x0 = hn::Max(hn::Ceil(lowX), zero), y0 = hn::Max(hn::Ceil(lowY), zero);
     const auto x1 = hn::Min(hn::Floor(highX), lastX), y1 = hn::Min(hn::Floor(highY), lastY);
     hn::Store(hn::ConvertTo(ints, x0), ints, rectangles.x0);
@@ -77,7 +80,8 @@ HWY_INLINE GroupBits rectanglesOf(const TileFrame& frame, hn::Vec<IntTag> cells,
 
 class Culling {
 public:
-    Culling(const TileFrame& frame, const CullTask& task, CullCounts& counts) : frame_(frame), task_(task), counts_(counts) {}
+    Culling(const TileFrame& frame, const CullTask& task, CullCounts& counts)
+        : frame_(frame), task_(task), counts_(counts) {}
 
     std::size_t run() {
         const IntTag ints;
@@ -98,14 +102,16 @@ public:
 
 private:
     void addGroup(const GroupBits& bits, std::size_t count, const std::int32_t* cells) {
-        const auto seen = static_cast<std::size_t>(std::popcount(bits.seen)), outside = static_cast<std::size_t>(std::popcount(bits.outside)),
+        const auto seen = static_cast<std::size_t>(std::popcount(bits.seen)),
+                   outside = static_cast<std::size_t>(std::popcount(bits.outside)),
                    atEye = static_cast<std::size_t>(std::popcount(bits.atEye));
         counts_.outsideView += outside;
         counts_.noPixelCentre += count - seen - outside - atEye;
         for (std::uint32_t rest = bits.seen | bits.atEye; rest != 0; rest &= rest - 1) {
             const auto j = static_cast<std::size_t>(std::countr_zero(rest));
             const auto cell = static_cast<mesh::CellIndex>(cells[j]);
-            if (HWY_UNLIKELY((bits.atEye >> j & 1u) != 0 || frame_.orthographic) && !meetsFrontHalf(cell, (bits.atEye >> j & 1u) != 0, j))
+            if (HWY_UNLIKELY((bits.atEye >> j & 1u) != 0 || frame_.orthographic) &&
+                !meetsFrontHalf(cell, (bits.atEye >> j & 1u) != 0, j))
                 continue;
             add(cell, rectangles_.x0[j], rectangles_.y0[j], rectangles_.x1[j], rectangles_.y1[j]);
         }

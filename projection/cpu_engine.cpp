@@ -8,11 +8,11 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <glm/geometric.hpp>
 
 #include <projection/cpu_bins.h>
 #include <projection/cpu_cull.h>
@@ -42,7 +42,10 @@ constexpr std::size_t mostPlaces = std::size_t{1} << 20, leastChunk = 4096, usua
 class CpuEngine final : public Engine {
 public:
     CpuEngine(const Scene& scene, const CpuSkips& skips)
-        : scene_(scene), skips_(skips), mesh_(*scene.mesh), units_(sceneUnits(mesh_)),
+        : scene_(scene),
+          skips_(skips),
+          mesh_(*scene.mesh),
+          units_(sceneUnits(mesh_)),
           transfer_(inSceneUnits(scene.transferFunction, units_, integralOf(scene.settings.mode))),
           arena_(scene.settings.threads > 0 ? scene.settings.threads : tbb::task_arena::automatic) {
         arena_.execute([&] { prepare(); });
@@ -77,7 +80,10 @@ private:
     void prepare();
     void findVisibleCells();
     TileKind kind() const;
-    bool ordered() const { return !(frame_.kind == TileKind::Mip || frame_.kind == TileKind::Average || frame_.kind == TileKind::Absorption); }
+    bool ordered() const {
+        return !(frame_.kind == TileKind::Mip || frame_.kind == TileKind::Average ||
+                 frame_.kind == TileKind::Absorption);
+    }
     void makeLists(const Camera& camera, FrameReport& report);
     void setFrame(const CameraFrame& frame);
     CullCounts cull();
@@ -115,10 +121,14 @@ private:
 TileKind CpuEngine::kind() const {
     const auto& shading = scene_.settings.shading;
     switch (scene_.settings.mode) {
-        case Mode::Mip: return TileKind::Mip;
-        case Mode::Average: return TileKind::Average;
-        case Mode::FirstHit: return TileKind::FirstHit;
-        default: break;
+        case Mode::Mip:
+            return TileKind::Mip;
+        case Mode::Average:
+            return TileKind::Average;
+        case Mode::FirstHit:
+            return TileKind::FirstHit;
+        default:
+            break;
     }
     if (shading.needsGradient()) return TileKind::Shaded;
     return skips_.orderFree && transfer_.constantColor() ? TileKind::Absorption : TileKind::Composite;
@@ -159,7 +169,8 @@ void CpuEngine::findVisibleCells() {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             double s[4];
             for (int k = 0; k < 4; ++k) s[k] = mesh_.scalarAt(static_cast<mesh::CellIndex>(i), k);
-            shows[i] = rangeShows(function, support, std::min({s[0], s[1], s[2], s[3]}), std::max({s[0], s[1], s[2], s[3]}), integral);
+            shows[i] = rangeShows(function, support, std::min({s[0], s[1], s[2], s[3]}),
+                                  std::max({s[0], s[1], s[2], s[3]}), integral);
         }
     });
     const auto count = static_cast<std::size_t>(std::count(shows.begin(), shows.end(), std::uint8_t{1}));
@@ -183,7 +194,8 @@ void CpuEngine::setFrame(const CameraFrame& frame) {
     frame_.lights.clear();
     for (const auto& light : scene_.settings.shading.lights) {
         const glm::dvec3 towards = glm::normalize(light.towards);
-        frame_.lights.push_back({static_cast<float>(glm::dot(towards, frame.right)), static_cast<float>(-glm::dot(towards, frame.up)),
+        frame_.lights.push_back({static_cast<float>(glm::dot(towards, frame.right)),
+                                 static_cast<float>(-glm::dot(towards, frame.up)),
                                  static_cast<float>(glm::dot(towards, frame.forward))});
     }
 }
@@ -231,7 +243,12 @@ CullCounts CpuEngine::cull() {
     std::vector<CullCounts> counts(chunkCount);
     tbb::parallel_for(std::size_t{0}, chunkCount, [&](std::size_t c) {
         const std::size_t begin = c * chunkSize, end = std::min(candidates, begin + chunkSize);
-        const CullTask task{allVisible_ ? nullptr : visible_.data(), begin, end, order_.keys, survivors_.data() + begin, tilesX_,
+        const CullTask task{allVisible_ ? nullptr : visible_.data(),
+                            begin,
+                            end,
+                            order_.keys,
+                            survivors_.data() + begin,
+                            tilesX_,
                             bins_.counts(c)};
         chunks_[c] = {begin, cullCells(frame_, task, counts[c])};
     });
@@ -267,14 +284,17 @@ void CpuEngine::draw(Image& image, FrameReport& report) {
     std::vector<TileResult> results(bins_.tileCount());
     std::atomic<std::size_t> next{0};
     const int threads = arena_.max_concurrency();
-    tbb::parallel_for(0, threads, [&](int) {
-        for (std::size_t i = next++; i < tilesByWork_.size(); i = next++) {
-            const std::uint32_t tile = tilesByWork_[i];
-            const auto columns = static_cast<std::uint32_t>(tilesX_);
-            drawTile(frame_, static_cast<int>(tile % columns) * cpuTileSize, static_cast<int>(tile / columns) * cpuTileSize,
-                     bins_.tile(tile), image, results[tile]);
-        }
-    }, tbb::simple_partitioner());
+    tbb::parallel_for(
+        0, threads,
+        [&](int) {
+            for (std::size_t i = next++; i < tilesByWork_.size(); i = next++) {
+                const std::uint32_t tile = tilesByWork_[i];
+                const auto columns = static_cast<std::uint32_t>(tilesX_);
+                drawTile(frame_, static_cast<int>(tile % columns) * cpuTileSize,
+                         static_cast<int>(tile / columns) * cpuTileSize, bins_.tile(tile), image, results[tile]);
+            }
+        },
+        tbb::simple_partitioner());
     std::vector<std::uint32_t> doubtfulPixels = order_.doubtfulPixels;
     for (const TileResult& result : results) {
         report.fragments += result.fragments;
@@ -293,6 +313,8 @@ std::unique_ptr<Engine> makeCpuEngineWith(const Scene& scene, const CpuSkips& sk
     return std::make_unique<CpuEngine>(scene, skips);
 }
 
-std::unique_ptr<Engine> makeCpuEngine(const Scene& scene, const EngineOptions&) { return makeCpuEngineWith(scene, CpuSkips{}); }
+std::unique_ptr<Engine> makeCpuEngine(const Scene& scene, const EngineOptions&) {
+    return makeCpuEngineWith(scene, CpuSkips{});
+}
 
 }  // namespace tetralux::projection

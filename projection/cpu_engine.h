@@ -2,10 +2,11 @@
 /// \file
 /// The engine for processors: cells in visibility order into tiles of pixels, many threads, SIMD lanes.
 ///
-///   project ─► cull ─► (sort: order of the cells) ─► bin ─► sort each tile's list ─► draw tiles: setup, intervals, integrals
-///   points     cells                                 tiles
+///   project ─► cull ─► (sort: order of the cells) ─► bin ─► sort each tile's list ─► draw tiles: setup, intervals,
+///   integrals points     cells                                 tiles
 ///
-/// Nothing is stored per cell but its order and the tile lists: a cell is set up in SIMD lanes in each tile that meets it.
+/// Nothing is stored per cell but its order and the tile lists: a cell is set up in SIMD lanes in each tile that meets
+/// it.
 #pragma once
 
 #include <memory>
@@ -18,11 +19,11 @@ std::unique_ptr<Engine> makeCpuEngine(const Scene& scene, const EngineOptions& o
 
 /// What can be switched off to show that it does not change the picture.
 struct CpuSkips {
-    bool invisibleCells = true;     ///< cells that the transfer function hides are not looked at
-    bool earlyTermination = true;   ///< opaque pixels and tiles are left alone
-    bool orderFree = true;          ///< no sort where order does not matter
-    bool keepFrame = true;          ///< lists are kept while the camera stays
-    bool sort = true;               ///< off: cells in the mesh's order, which must show as doubtful pixels
+    bool invisibleCells = true;    ///< cells that the transfer function hides are not looked at
+    bool earlyTermination = true;  ///< opaque pixels and tiles are left alone
+    bool orderFree = true;         ///< no sort where order does not matter
+    bool keepFrame = true;         ///< lists are kept while the camera stays
+    bool sort = true;              ///< off: cells in the mesh's order, which must show as doubtful pixels
 };
 std::unique_ptr<Engine> makeCpuEngineWith(const Scene& scene, const CpuSkips& skips);
 

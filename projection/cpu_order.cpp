@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
 
 #include <projection/boundary_reentry.h>
 #include <projection/power_order.h>
@@ -36,7 +36,8 @@ void CpuOrder::buildPowerPlanes(const std::vector<double>& heights) {
             const glm::dvec3 cd = glm::cross(ac, ad), db = glm::cross(ad, ab), bc = glm::cross(ab, ac);
             const double h = heights[cell[0]];
             const glm::dvec3 gradient =
-                ((heights[cell[1]] - h) * cd + (heights[cell[2]] - h) * db + (heights[cell[3]] - h) * bc) / glm::dot(ab, cd);
+                ((heights[cell[1]] - h) * cd + (heights[cell[2]] - h) * db + (heights[cell[3]] - h) * bc) /
+                glm::dot(ab, cd);
             powerPlanes_[i] = glm::dvec4(gradient, h - glm::dot(gradient, a));
         }
     });

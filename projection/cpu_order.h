@@ -24,8 +24,8 @@ struct CpuFrameOrder {
     std::vector<std::uint32_t> places;  ///< what `keys` points to, where there is no certificate
 };
 
-/// Keys of cells: by power (power_order.h) where a certificate holds, so that only what survived culling is sorted; else places
-/// in the order of the whole mesh.
+/// Keys of cells: by power (power_order.h) where a certificate holds, so that only what survived culling is sorted;
+/// else places in the order of the whole mesh.
 class CpuOrder {
 public:
     explicit CpuOrder(const mesh::ScalarMesh& mesh);
@@ -36,8 +36,9 @@ private:
     void buildPowerPlanes(const std::vector<double>& heights);
 
     const mesh::ScalarMesh& mesh_;
-    /// The cell's linear function of position (mesh diagonals from the centre of the bounds): gradient and constant. Its value at the eye is the
-    /// key. 32 bytes per cell; to make it anew each frame would take four times the time of reading it.
+    /// The cell's linear function of position (mesh diagonals from the centre of the bounds): gradient and constant.
+    /// Its value at the eye is the key. 32 bytes per cell; to make it anew each frame would take four times the time of
+    /// reading it.
     std::vector<glm::dvec4> powerPlanes_;
     std::unique_ptr<VisibilitySorter> sorter_;  ///< where there is no certificate
 };

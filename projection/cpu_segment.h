@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// From a segment of every pixel of a block to colour: along the pieces of the transfer function, front to back. Included once per instruction set.
+/// From a segment of every pixel of a block to colour: along the pieces of the transfer function, front to back.
+/// Included once per instruction set.
 ///
-/// A segment within one piece needs neither table nor exponential (cpu_piece.glsl). One that crosses nodes is cut there, exactly, and walks through
-/// its pieces; a cell's pixels do so together, those along which the scalar rises upwards and the others downwards.
+/// A segment within one piece needs neither table nor exponential (cpu_piece.glsl). One that crosses nodes is cut
+/// there, exactly, and walks through its pieces; a cell's pixels do so together, those along which the scalar rises
+/// upwards and the others downwards.
 #include <projection/cpu_simd.h>
 
 #include <projection/cpu_tile.h>
@@ -47,7 +49,8 @@ struct ColorSink {
     HWY_INLINE void addDepth(real) {}
 };
 
-/// The same for one segment that silhouettes and light will change: its opacity (1 − t would lose thin ones) and optical depths are wanted too.
+/// The same for one segment that silhouettes and light will change: its opacity (1 − t would lose thin ones) and
+/// optical depths are wanted too.
 struct SegmentSink : ColorSink {
     real opacity, smoothDepth, otherDepth;
 
@@ -74,12 +77,15 @@ struct DepthSink {
 
 /// Segments too deep for the polynomials: cut into parts of equal depth up to where nothing more is seen.
 template <class Sink>
-HWY_NOINLINE void addDeepPiece(const TransferPiece& piece, real middle, real half, real depth, real halfStep, Sink& sink) {
+HWY_NOINLINE void addDeepPiece(const TransferPiece& piece, real middle, real half, real depth, real halfStep,
+                               Sink& sink) {
     constexpr float seen = 14.0f;  // exp(−14) < leastTransmittance
-    const real tame = min(real(1.0f), real(1e12f) / max(depth, real(1e-30f)));  // squares of more leave the range of float
+    const real tame =
+        min(real(1.0f), real(1e12f) / max(depth, real(1e-30f)));  // squares of more leave the range of float
     const real front = max((depth - halfStep) * tame, real(0.0f)), back = max((depth + halfStep) * tame, real(0.0f));
     const real whole = depth * tame, shown = min(whole, real(seen));
-    // The first part is half as deep as the others: one that begins without extinction has |δ| = D. Farther on |δ| < D/5.
+    // The first part is half as deep as the others: one that begins without extinction has |δ| = D. Farther on |δ| <
+    // D/5.
     const int parts = std::max(1, static_cast<int>(std::ceil(largest(shown) + 0.5f)));
     const float perPart = 1.0f / (static_cast<float>(parts) - 0.5f);
     real begin(0.0f);
@@ -99,8 +105,8 @@ HWY_NOINLINE void addDeepPiece(const TransferPiece& piece, real middle, real hal
     }
 }
 
-/// Adds a segment within one piece: `middle` and `half` are its mean scalar less the piece's own middle and half its scalar step, `path` its length
-/// or its variation of the scalar (0 where there is nothing to add).
+/// Adds a segment within one piece: `middle` and `half` are its mean scalar less the piece's own middle and half its
+/// scalar step, `path` its length or its variation of the scalar (0 where there is nothing to add).
 template <class Sink>
 HWY_INLINE void addPiece(const TransferPiece& piece, real middle, real half, real path, Sink& sink) {
     const real slope(piece.extinctionSlope);
@@ -132,7 +138,8 @@ HWY_INLINE void addWithinPiece(const TransferPiece& piece, const Segments& segme
     addPiece(piece, middle, half, ScaleInvariant ? abs(half + half) : segments.length, sink);
 }
 
-/// The part of the segments within one of several pieces. `perScalar`: path per unit of scalar, 0 in pixels that do not take part.
+/// The part of the segments within one of several pieces. `perScalar`: path per unit of scalar, 0 in pixels that do not
+/// take part.
 template <class Sink>
 HWY_INLINE void addClipped(const TransferPiece& piece, const Segments& segments, real perScalar, Sink& sink) {
     if (!piece.visible) return;
@@ -147,11 +154,12 @@ HWY_INLINE void addClipped(const TransferPiece& piece, const Segments& segments,
 
 /// Segments that cross nodes or isosurfaces: pieces first … last of the transfer function.
 template <bool ScaleInvariant, class Sink>
-HWY_INLINE void addAcrossPieces(const CpuTransfer& transfer, std::size_t first, std::size_t last, const Segments& segments,
-                                Sink& sink) {
+HWY_INLINE void addAcrossPieces(const CpuTransfer& transfer, std::size_t first, std::size_t last,
+                                const Segments& segments, Sink& sink) {
     const auto& pieces = transfer.pieces();
     const auto& peaks = transfer.peaks();
-    // a step too small to be divided by is made larger: the pieces that it lies in stay the same within 1e-6 of the range
+    // a step too small to be divided by is made larger: the pieces that it lies in stay the same within 1e-6 of the
+    // range
     Segments cut = segments;
     const real leastStep(1e-6f);
     if constexpr (!ScaleInvariant)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// SIMD lanes with operators, so that the shared texts (.glsl) compile for them: `real` is a vector of floats, one lane per pixel, `wide` one of
-/// doubles, one lane per cell. Included once per instruction set (Highway's foreach_target). Vector types of unknown size (SVE,
-/// RISC-V) cannot be members of a class: cpu_targets.h leaves those targets out.
+/// SIMD lanes with operators, so that the shared texts (.glsl) compile for them: `real` is a vector of floats, one lane
+/// per pixel, `wide` one of doubles, one lane per cell. Included once per instruction set (Highway's foreach_target).
+/// Vector types of unknown size (SVE, RISC-V) cannot be members of a class: cpu_targets.h leaves those targets out.
 #include <hwy/highway.h>
 
 #if defined(TETRALUX_CPU_SIMD_H) == defined(HWY_TARGET_TOGGLE)
@@ -21,7 +21,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 using FloatTag = hn::CappedTag<float, 16>;
 using IntTag = hn::Rebind<std::int32_t, FloatTag>;
 using DoubleTag = hn::CappedTag<double, 8>;
-HWY_INLINE constexpr std::size_t laneCount() { return hn::MaxLanes(FloatTag()); }
+HWY_INLINE constexpr std::size_t laneCount() {
+    return hn::MaxLanes(FloatTag());
+}
 
 struct real;
 /// A product that the next addition may take into a fused multiply-add.
@@ -47,44 +49,114 @@ struct cell_real {
 
 using mask = hn::Mask<FloatTag>;
 
-HWY_INLINE product operator*(real a, real b) { return {a.v, b.v}; }
-HWY_INLINE real operator+(real a, real b) { return hn::Add(a.v, b.v); }
-HWY_INLINE real operator-(real a, real b) { return hn::Sub(a.v, b.v); }
-HWY_INLINE real operator/(real a, real b) { return hn::Div(a.v, b.v); }
-HWY_INLINE real operator-(real a) { return hn::Neg(a.v); }
-HWY_INLINE real operator+(real a, product p) { return hn::MulAdd(p.a, p.b, a.v); }
-HWY_INLINE real operator+(product p, real a) { return hn::MulAdd(p.a, p.b, a.v); }
-HWY_INLINE real operator+(product p, product q) { return hn::MulAdd(p.a, p.b, hn::Mul(q.a, q.b)); }
-HWY_INLINE real operator-(real a, product p) { return hn::NegMulAdd(p.a, p.b, a.v); }
-HWY_INLINE real operator-(product p, real a) { return hn::MulSub(p.a, p.b, a.v); }
-HWY_INLINE real operator-(product p, product q) { return hn::MulSub(p.a, p.b, hn::Mul(q.a, q.b)); }
-HWY_INLINE product operator*(product p, real a) { return {hn::Mul(p.a, p.b), a.v}; }
-HWY_INLINE product operator*(real a, product p) { return {a.v, hn::Mul(p.a, p.b)}; }
-HWY_INLINE product operator*(product p, product q) { return {hn::Mul(p.a, p.b), hn::Mul(q.a, q.b)}; }
-HWY_INLINE real operator/(product p, real a) { return hn::Div(hn::Mul(p.a, p.b), a.v); }
-HWY_INLINE real& operator+=(real& a, real b) { return a = a + b; }
-HWY_INLINE real& operator+=(real& a, product p) { return a = a + p; }
-HWY_INLINE real& operator-=(real& a, product p) { return a = a - p; }
+HWY_INLINE product operator*(real a, real b) {
+    return {a.v, b.v};
+}
+HWY_INLINE real operator+(real a, real b) {
+    return hn::Add(a.v, b.v);
+}
+HWY_INLINE real operator-(real a, real b) {
+    return hn::Sub(a.v, b.v);
+}
+HWY_INLINE real operator/(real a, real b) {
+    return hn::Div(a.v, b.v);
+}
+HWY_INLINE real operator-(real a) {
+    return hn::Neg(a.v);
+}
+HWY_INLINE real operator+(real a, product p) {
+    return hn::MulAdd(p.a, p.b, a.v);
+}
+HWY_INLINE real operator+(product p, real a) {
+    return hn::MulAdd(p.a, p.b, a.v);
+}
+HWY_INLINE real operator+(product p, product q) {
+    return hn::MulAdd(p.a, p.b, hn::Mul(q.a, q.b));
+}
+HWY_INLINE real operator-(real a, product p) {
+    return hn::NegMulAdd(p.a, p.b, a.v);
+}
+HWY_INLINE real operator-(product p, real a) {
+    return hn::MulSub(p.a, p.b, a.v);
+}
+HWY_INLINE real operator-(product p, product q) {
+    return hn::MulSub(p.a, p.b, hn::Mul(q.a, q.b));
+}
+HWY_INLINE product operator*(product p, real a) {
+    return {hn::Mul(p.a, p.b), a.v};
+}
+HWY_INLINE product operator*(real a, product p) {
+    return {a.v, hn::Mul(p.a, p.b)};
+}
+HWY_INLINE product operator*(product p, product q) {
+    return {hn::Mul(p.a, p.b), hn::Mul(q.a, q.b)};
+}
+HWY_INLINE real operator/(product p, real a) {
+    return hn::Div(hn::Mul(p.a, p.b), a.v);
+}
+HWY_INLINE real& operator+=(real& a, real b) {
+    return a = a + b;
+}
+HWY_INLINE real& operator+=(real& a, product p) {
+    return a = a + p;
+}
+HWY_INLINE real& operator-=(real& a, product p) {
+    return a = a - p;
+}
 
-HWY_INLINE mask operator<(real a, real b) { return hn::Lt(a.v, b.v); }
-HWY_INLINE mask operator>(real a, real b) { return hn::Gt(a.v, b.v); }
-HWY_INLINE mask operator==(real a, real b) { return hn::Eq(a.v, b.v); }
-HWY_INLINE mask both(mask a, mask b) { return hn::And(a, b); }
-HWY_INLINE mask either(mask a, mask b) { return hn::Or(a, b); }
-HWY_INLINE mask exactlyOne(mask a, mask b) { return hn::Xor(a, b); }
-HWY_INLINE bool none(mask m) { return hn::AllFalse(FloatTag(), m); }
-HWY_INLINE std::size_t count(mask m) { return hn::CountTrue(FloatTag(), m); }
+HWY_INLINE mask operator<(real a, real b) {
+    return hn::Lt(a.v, b.v);
+}
+HWY_INLINE mask operator>(real a, real b) {
+    return hn::Gt(a.v, b.v);
+}
+HWY_INLINE mask operator==(real a, real b) {
+    return hn::Eq(a.v, b.v);
+}
+HWY_INLINE mask both(mask a, mask b) {
+    return hn::And(a, b);
+}
+HWY_INLINE mask either(mask a, mask b) {
+    return hn::Or(a, b);
+}
+HWY_INLINE mask exactlyOne(mask a, mask b) {
+    return hn::Xor(a, b);
+}
+HWY_INLINE bool none(mask m) {
+    return hn::AllFalse(FloatTag(), m);
+}
+HWY_INLINE std::size_t count(mask m) {
+    return hn::CountTrue(FloatTag(), m);
+}
 
-HWY_INLINE real abs(real a) { return hn::Abs(a.v); }
-HWY_INLINE real min(real a, real b) { return hn::Min(a.v, b.v); }
-HWY_INLINE real max(real a, real b) { return hn::Max(a.v, b.v); }
-HWY_INLINE real sqrt(real a) { return hn::Sqrt(a.v); }
-HWY_INLINE real floor(real a) { return hn::Floor(a.v); }
-HWY_INLINE real clamp(real a, real low, real high) { return hn::Min(hn::Max(a.v, low.v), high.v); }
-HWY_INLINE real select(mask m, real ifTrue, real ifFalse) { return hn::IfThenElse(m, ifTrue.v, ifFalse.v); }
+HWY_INLINE real abs(real a) {
+    return hn::Abs(a.v);
+}
+HWY_INLINE real min(real a, real b) {
+    return hn::Min(a.v, b.v);
+}
+HWY_INLINE real max(real a, real b) {
+    return hn::Max(a.v, b.v);
+}
+HWY_INLINE real sqrt(real a) {
+    return hn::Sqrt(a.v);
+}
+HWY_INLINE real floor(real a) {
+    return hn::Floor(a.v);
+}
+HWY_INLINE real clamp(real a, real low, real high) {
+    return hn::Min(hn::Max(a.v, low.v), high.v);
+}
+HWY_INLINE real select(mask m, real ifTrue, real ifFalse) {
+    return hn::IfThenElse(m, ifTrue.v, ifFalse.v);
+}
 /// `a` where m, 0 elsewhere.
-HWY_INLINE real keep(mask m, real a) { return hn::IfThenElseZero(m, a.v); }
-HWY_INLINE float largest(real a) { return hn::GetLane(hn::MaxOfLanes(FloatTag(), a.v)); }
+HWY_INLINE real keep(mask m, real a) {
+    return hn::IfThenElseZero(m, a.v);
+}
+HWY_INLINE float largest(real a) {
+    return hn::GetLane(hn::MaxOfLanes(FloatTag(), a.v));
+}
 
 /// 1/a to about 1e-7: the hardware's estimate and one Newton step (none needed where the estimate is a full division).
 HWY_INLINE real reciprocal(real a) {
@@ -92,9 +164,15 @@ HWY_INLINE real reciprocal(real a) {
     return hn::MulAdd(estimate, hn::NegMulAdd(a.v, estimate, real(1.0f).v), estimate);
 }
 
-HWY_INLINE real loadAligned(const float* from) { return hn::Load(FloatTag(), from); }
-HWY_INLINE real loadAt(const float* from) { return hn::LoadU(FloatTag(), from); }
-HWY_INLINE void storeAt(real a, float* to) { hn::StoreU(a.v, FloatTag(), to); }
+HWY_INLINE real loadAligned(const float* from) {
+    return hn::Load(FloatTag(), from);
+}
+HWY_INLINE real loadAt(const float* from) {
+    return hn::LoadU(FloatTag(), from);
+}
+HWY_INLINE void storeAt(real a, float* to) {
+    hn::StoreU(a.v, FloatTag(), to);
+}
 
 /// Doubles, one lane per cell.
 struct wide {
@@ -105,20 +183,48 @@ struct wide {
 };
 using wide_mask = hn::Mask<DoubleTag>;
 
-HWY_INLINE wide operator*(wide a, wide b) { return hn::Mul(a.v, b.v); }
-HWY_INLINE wide operator+(wide a, wide b) { return hn::Add(a.v, b.v); }
-HWY_INLINE wide operator-(wide a, wide b) { return hn::Sub(a.v, b.v); }
-HWY_INLINE wide operator/(wide a, wide b) { return hn::Div(a.v, b.v); }
-HWY_INLINE wide operator-(wide a) { return hn::Neg(a.v); }
-HWY_INLINE wide_mask operator<(wide a, wide b) { return hn::Lt(a.v, b.v); }
-HWY_INLINE wide_mask operator>(wide a, wide b) { return hn::Gt(a.v, b.v); }
-HWY_INLINE wide abs(wide a) { return hn::Abs(a.v); }
-HWY_INLINE wide min(wide a, wide b) { return hn::Min(a.v, b.v); }
-HWY_INLINE wide max(wide a, wide b) { return hn::Max(a.v, b.v); }
-HWY_INLINE wide sqrt(wide a) { return hn::Sqrt(a.v); }
-HWY_INLINE wide round(wide a) { return hn::Round(a.v); }
-HWY_INLINE wide select(wide_mask m, wide ifTrue, wide ifFalse) { return hn::IfThenElse(m, ifTrue.v, ifFalse.v); }
-HWY_INLINE wide copySign(wide magnitude, wide sign) { return hn::CopySign(magnitude.v, sign.v); }
+HWY_INLINE wide operator*(wide a, wide b) {
+    return hn::Mul(a.v, b.v);
+}
+HWY_INLINE wide operator+(wide a, wide b) {
+    return hn::Add(a.v, b.v);
+}
+HWY_INLINE wide operator-(wide a, wide b) {
+    return hn::Sub(a.v, b.v);
+}
+HWY_INLINE wide operator/(wide a, wide b) {
+    return hn::Div(a.v, b.v);
+}
+HWY_INLINE wide operator-(wide a) {
+    return hn::Neg(a.v);
+}
+HWY_INLINE wide_mask operator<(wide a, wide b) {
+    return hn::Lt(a.v, b.v);
+}
+HWY_INLINE wide_mask operator>(wide a, wide b) {
+    return hn::Gt(a.v, b.v);
+}
+HWY_INLINE wide abs(wide a) {
+    return hn::Abs(a.v);
+}
+HWY_INLINE wide min(wide a, wide b) {
+    return hn::Min(a.v, b.v);
+}
+HWY_INLINE wide max(wide a, wide b) {
+    return hn::Max(a.v, b.v);
+}
+HWY_INLINE wide sqrt(wide a) {
+    return hn::Sqrt(a.v);
+}
+HWY_INLINE wide round(wide a) {
+    return hn::Round(a.v);
+}
+HWY_INLINE wide select(wide_mask m, wide ifTrue, wide ifFalse) {
+    return hn::IfThenElse(m, ifTrue.v, ifFalse.v);
+}
+HWY_INLINE wide copySign(wide magnitude, wide sign) {
+    return hn::CopySign(magnitude.v, sign.v);
+}
 
 }  // namespace tetralux::projection::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

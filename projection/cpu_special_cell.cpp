@@ -10,8 +10,12 @@ namespace {
 
 // what the formulas call, for doubles
 using std::abs, std::max, std::min;
-[[maybe_unused]] double select(bool condition, double ifTrue, double ifFalse) { return condition ? ifTrue : ifFalse; }
-double copySign(double magnitude, double sign) { return std::copysign(magnitude, sign); }
+[[maybe_unused]] double select(bool condition, double ifTrue, double ifFalse) {
+    return condition ? ifTrue : ifFalse;
+}
+double copySign(double magnitude, double sign) {
+    return std::copysign(magnitude, sign);
+}
 #define TETRALUX_CELL_FUNCTION inline
 #include <projection/cpu_projected_cell.inl>
 
@@ -47,7 +51,9 @@ bool rectangleAtEye(const TileFrame& frame, const std::array<CpuPoint, 4>& corne
         for (std::size_t j = 0; j < 4; ++j)  // where the edge from behind comes to the front
             if (v[j].z > clip) include(v[k] + (clip - v[k].z) / (v[j].z - v[k].z) * (v[j] - v[k]));
     }
-    auto begin = [](double x, int limit) { return static_cast<int>(std::clamp(std::ceil(x), 0.0, static_cast<double>(limit))); };
+    auto begin = [](double x, int limit) {
+        return static_cast<int>(std::clamp(std::ceil(x), 0.0, static_cast<double>(limit)));
+    };
     auto end = [](double x, int limit) {
         return static_cast<int>(std::clamp(std::floor(x) + 1, 0.0, static_cast<double>(limit)));
     };
@@ -55,8 +61,8 @@ bool rectangleAtEye(const TileFrame& frame, const std::array<CpuPoint, 4>& corne
     return !rect.empty();
 }
 
-void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int32_t (&points)[4], mesh::CellIndex cellIndex,
-                    bool odd, std::size_t j, CellBatch& batch) {
+void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int32_t (&points)[4],
+                    mesh::CellIndex cellIndex, bool odd, std::size_t j, CellBatch& batch) {
     std::array<CpuPoint, 4> corners;
     bool behind = false;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -102,7 +108,8 @@ void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int
     batch.scale[j] = static_cast<float>(reference.depth);
     batch.offsetX[j] = static_cast<float>(tileX - frame.centre.x - reference.imageX);
     batch.offsetY[j] = static_cast<float>(tileY - frame.centre.y - reference.imageY);
-    const auto depths = depthBounds<double, false>(frame.depthReference, reference.depth, reference.perDepth, deepest, deepest);
+    const auto depths =
+        depthBounds<double, false>(frame.depthReference, reference.depth, reference.perDepth, deepest, deepest);
     batch.rhoNear[j] = static_cast<float>(largestRho);
     batch.rhoFar[j] = static_cast<float>(depths.rhoFar - 1e-6);
     batch.nearness[j] = static_cast<float>(depths.nearness);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Before any Highway header: the instruction sets that the tile engine leaves out. Vectors of a size that only the machine knows cannot stand in
-/// classes (cpu_simd.h); such machines run the NEON or the scalar form. SSSE3 would be one more copy of everything for processors of 2006.
+/// Before any Highway header: the instruction sets that the tile engine leaves out. Vectors of a size that only the
+/// machine knows cannot stand in classes (cpu_simd.h); such machines run the NEON or the scalar form. SSSE3 would be
+/// one more copy of everything for processors of 2006.
 #pragma once
 
 #include <hwy/detect_compiler_arch.h>

@@ -23,8 +23,9 @@ namespace tetralux::projection {
 /// Pixels along a tile's side.
 inline constexpr int cpuTileSize = 32;
 
-/// A mesh point before the camera: x and y in pixels times depth (pixels when orthographic), z the depth, lengths in scene
-/// units, the image's sample shift included; and its pixel. A point at or behind the eye's plane has no pixel: pixelX is NaN.
+/// A mesh point before the camera: x and y in pixels times depth (pixels when orthographic), z the depth, lengths in
+/// scene units, the image's sample shift included; and its pixel. A point at or behind the eye's plane has no pixel:
+/// pixelX is NaN.
 struct CpuPoint {
     double x, y, z;
     float pixelX, pixelY;
@@ -39,11 +40,11 @@ struct TileEntry {
 
 /// What the picture asks of a tile.
 enum class TileKind {
-    Composite,     ///< colour and transmittance, front to back
-    Absorption,    ///< optical depth only: all that is seen has one colour
+    Composite,   ///< colour and transmittance, front to back
+    Absorption,  ///< optical depth only: all that is seen has one colour
     Mip,
     Average,
-    Shaded,        ///< composite with silhouettes or light
+    Shaded,  ///< composite with silhouettes or light
     FirstHit
 };
 
@@ -59,10 +60,10 @@ struct TileFrame {
     bool ordered;  ///< entries come front to back, so a pixel where they do not is doubtful
     bool orthographic;
     int width, height;
-    glm::dvec2 centre;     ///< pixel coordinates of the optical axis, sample shift taken off
-    double pixel;          ///< size of a pixel at depth 1 (orthographic: in scene lengths)
-    double depthReference; ///< scene lengths: nearness along rays is measured from this depth
-    float orderTolerance;  ///< of nearness
+    glm::dvec2 centre;      ///< pixel coordinates of the optical axis, sample shift taken off
+    double pixel;           ///< size of a pixel at depth 1 (orthographic: in scene lengths)
+    double depthReference;  ///< scene lengths: nearness along rays is measured from this depth
+    float orderTolerance;   ///< of nearness
     const shading::ShadingSettings* shading;
     std::vector<std::array<float, 3>> lights;  ///< towards each, as (right, down, forward)
     bool earlyTermination;
@@ -79,7 +80,8 @@ struct TileResult {
 inline constexpr float leastTransmittance = 1e-6f;
 
 /// Draws the tile whose first pixel is (x0, y0) into `image`.
-void drawTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image, TileResult& result);
+void drawTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+              TileResult& result);
 
 /// Name of the instruction set that drawTile uses.
 const char* tileInstructionSet();

@@ -2,8 +2,8 @@
 /// \file
 /// Draws one tile: its cells front to back into accumulators that stay in the first cache.
 ///
-/// A tile's pixels lie in columns four wide, row by row within a column, so that a vector of 4·n pixels covers n rows of a column and may begin at
-/// any row: a cell of a few pixels takes fewer blocks than with blocks on a grid.
+/// A tile's pixels lie in columns four wide, row by row within a column, so that a vector of 4·n pixels covers n rows
+/// of a column and may begin at any row: a cell of a few pixels takes fewer blocks than with blocks on a grid.
 #include <projection/cpu_targets.h>
 
 #undef HWY_TARGET_INCLUDE
@@ -28,12 +28,12 @@ constexpr int paddedRows = cpuTileSize + 4;  // a block may begin in the last ro
 constexpr std::size_t tilePixels = static_cast<std::size_t>(columns) * paddedRows * columnWidth;
 
 /// Accumulators of a tile. What they hold depends on the kind:
-///   Composite, Shaded: premultiplied colour r g b, transmittance t, nearness `last` at which the last segment ended, and its scalar
-///   FirstHit: colour of the hit, t = 1 until then
-///   Absorption: depth in t      Mip: largest scalar in t      Average: Σ scalar·length in r, Σ length in t
+///   Composite, Shaded: premultiplied colour r g b, transmittance t, nearness `last` at which the last segment ended,
+///   and its scalar FirstHit: colour of the hit, t = 1 until then Absorption: depth in t      Mip: largest scalar in t
+///   Average: Σ scalar·length in r, Σ length in t
 struct TileBuffers {
-    alignas(64) float r[tilePixels], g[tilePixels], b[tilePixels], t[tilePixels], last[tilePixels], lastScalar[tilePixels],
-        rayLength[tilePixels];
+    alignas(64) float r[tilePixels], g[tilePixels], b[tilePixels], t[tilePixels], last[tilePixels],
+        lastScalar[tilePixels], rayLength[tilePixels];
 };
 
 /// Faces of a cell, those that bound rho from above first.
@@ -46,23 +46,26 @@ constexpr std::array<FaceOrder, 16> makeFaceOrders() {
         FaceOrder& order = orders[fronts];
         int backs = 4;
         for (unsigned k = 0; k < 4; ++k) {
-            if (fronts >> k & 1u) order.face[order.fronts++] = static_cast<int>(k);
-            else order.face[--backs] = static_cast<int>(k);
+            if (fronts >> k & 1u)
+                order.face[order.fronts++] = static_cast<int>(k);
+            else
+                order.face[--backs] = static_cast<int>(k);
         }
     }
     return orders;
 }
 constexpr std::array<FaceOrder, 16> faceOrders = makeFaceOrders();
 
-constexpr float unset = -1e30f;          // no scalar yet
-constexpr float nothingYet = 3e38f;      // nearness before the first segment
-constexpr float doubtful = -3e38f;       // every later segment is nearer: once out of order, a pixel stays so
-constexpr float absorbed = 13.8f;        // −ln(leastTransmittance)
+constexpr float unset = -1e30f;      // no scalar yet
+constexpr float nothingYet = 3e38f;  // nearness before the first segment
+constexpr float doubtful = -3e38f;   // every later segment is nearer: once out of order, a pixel stays so
+constexpr float absorbed = 13.8f;    // −ln(leastTransmittance)
 
 template <TileKind Kind, bool Orthographic, bool ScaleInvariant, bool Peaks>
 class TileDrawing {
 public:
-    TileDrawing(const TileFrame& frame, int x0, int y0, TileResult& result) : frame_(frame), x0_(x0), y0_(y0), result_(result) {
+    TileDrawing(const TileFrame& frame, int x0, int y0, TileResult& result)
+        : frame_(frame), x0_(x0), y0_(y0), result_(result) {
         alignas(64) float x[16], y[16];
         for (std::size_t i = 0; i < 16; ++i) {
             x[i] = static_cast<float>(i % columnWidth);
@@ -79,8 +82,9 @@ public:
         for (std::size_t i = 0; i < entries.size(); i += CellBatch::capacity) {
             for (std::size_t k = i + ahead; k < std::min(entries.size(), i + ahead + CellBatch::capacity); ++k)
                 __builtin_prefetch(&frame_.cells[entries[k].cell]);
-            const std::size_t cells = setUpBatch<Orthographic, Kind == TileKind::Shaded || Kind == TileKind::FirstHit>(
-                frame_, x0_, y0_, entries.subspan(i), batch_);
+            const std::size_t cells = setUpBatch < Orthographic,
+                              Kind == TileKind::Shaded ||
+                                  Kind == TileKind::FirstHit > (frame_, x0_, y0_, entries.subspan(i), batch_);
             result_.cellsSetUp += cells;
             for (std::size_t j = 0; j < cells; ++j) drawCell(j);
             if (frame_.earlyTermination && ++sinceCheck == 8) {
@@ -96,7 +100,8 @@ public:
     void resolve(Image& image) const;
 
 private:
-    static constexpr bool colors = Kind == TileKind::Composite || Kind == TileKind::Shaded || Kind == TileKind::FirstHit;
+    static constexpr bool colors =
+        Kind == TileKind::Composite || Kind == TileKind::Shaded || Kind == TileKind::FirstHit;
     static constexpr bool integrates = colors || Kind == TileKind::Absorption;
     static constexpr int rows = static_cast<int>(laneCount()) / columnWidth;
 
@@ -110,13 +115,18 @@ private:
                 const std::size_t i = indexOf(x, y);
                 const bool inside = y < cpuTileSize && x0_ + x < frame_.width && y0_ + y < frame_.height;
                 px_.r[i] = px_.g[i] = px_.b[i] = 0;
-                if constexpr (colors) px_.t[i] = inside ? 1.0f : 0.0f;
-                else if constexpr (Kind == TileKind::Absorption) px_.t[i] = inside ? 0.0f : 1e30f;
-                else px_.t[i] = Kind == TileKind::Mip ? unset : 0.0f;
+                if constexpr (colors)
+                    px_.t[i] = inside ? 1.0f : 0.0f;
+                else if constexpr (Kind == TileKind::Absorption)
+                    px_.t[i] = inside ? 0.0f : 1e30f;
+                else
+                    px_.t[i] = Kind == TileKind::Mip ? unset : 0.0f;
                 px_.last[i] = nothingYet;
                 px_.lastScalar[i] = unset;
                 const double dx = x0_ + x - frame_.centre.x, dy = y0_ + y - frame_.centre.y;
-                px_.rayLength[i] = Orthographic ? 1.0f : static_cast<float>(std::sqrt(1 + frame_.pixel * frame_.pixel * (dx * dx + dy * dy)));
+                px_.rayLength[i] =
+                    Orthographic ? 1.0f
+                                 : static_cast<float>(std::sqrt(1 + frame_.pixel * frame_.pixel * (dx * dx + dy * dy)));
             }
     }
 
@@ -166,7 +176,8 @@ private:
 
     HWY_INLINE void drawCell(std::size_t j) {
         const int x1 = batch_.end[j][0], y1 = batch_.end[j][1];
-        const int xBegin = batch_.begin[j][0] / columnWidth * columnWidth, yFirst = batch_.begin[j][1], yGrid = yFirst / rows * rows;
+        const int xBegin = batch_.begin[j][0] / columnWidth * columnWidth, yFirst = batch_.begin[j][1],
+                  yGrid = yFirst / rows * rows;
         // blocks on the grid are loaded faster; beside it a cell may take fewer
         const int yBegin = (y1 - yFirst + rows - 1) / rows == (y1 - yGrid + rows - 1) / rows ? yGrid : yFirst;
         if (xBegin >= x1 || yBegin >= y1) return;
@@ -195,12 +206,13 @@ private:
         }
     }
 
-    HWY_INLINE void drawBlock(std::size_t j, std::size_t at, int x, int y, real dx, real dy, real in, real out, std::size_t first,
-                              std::size_t last) {
+    HWY_INLINE void drawBlock(std::size_t j, std::size_t at, int x, int y, real dx, real dy, real in, real out,
+                              std::size_t first, std::size_t last) {
         mask live = in > out;
         const real t = loadAt(px_.t + at);
         if constexpr (colors) live = both(live, t > real(frame_.earlyTermination ? leastTransmittance : -1.0f));
-        if constexpr (Kind == TileKind::Absorption) live = both(live, t < real(frame_.earlyTermination ? absorbed : 1e29f));
+        if constexpr (Kind == TileKind::Absorption)
+            live = both(live, t < real(frame_.earlyTermination ? absorbed : 1e29f));
         if (none(live)) return;
         result_.fragments += count(live);
         in = keep(live, in);
@@ -209,7 +221,8 @@ private:
         Segments segments;
         segments.live = live;
         const cell_real scalar{batch_.scalar[j]}, perX{batch_.scalarPerX[j]}, perY{batch_.scalarPerY[j]},
-            perRho{batch_.scalarPerRho[j]}, low{batch_.scalarLow[j]}, high{batch_.scalarHigh[j]}, scale{batch_.scale[j]};
+            perRho{batch_.scalarPerRho[j]}, low{batch_.scalarLow[j]}, high{batch_.scalarHigh[j]},
+            scale{batch_.scale[j]};
         const real rayLength = loadAt(px_.rayLength + at);
         if constexpr (Orthographic) {
             segments.front = scalarOrthographic(scalar, perX, perY, perRho, dx, dy, in, low, high);
@@ -268,7 +281,8 @@ private:
         vec3 towards(real(0.0f), real(0.0f), real(1.0f));
         if constexpr (!Orthographic) {
             const real inverse = reciprocal(rayLength), pixel(frame_.pixel);
-            const real fromAxisX = laneX_ + real(x0_ + x - frame_.centre.x), fromAxisY = laneY_ + real(y0_ + y - frame_.centre.y);
+            const real fromAxisX = laneX_ + real(x0_ + x - frame_.centre.x),
+                       fromAxisY = laneY_ + real(y0_ + y - frame_.centre.y);
             towards = inverse * vec3(fromAxisX * pixel, fromAxisY * pixel, real(1.0f));
         }
         ShadedSegment shaded = shadeSegment<ScaleInvariant>(frame_, batch_, j, sink, segments, towards);
@@ -287,10 +301,10 @@ private:
         }
     }
 
-    /// Cells along a ray do not overlap, so in the right order each segment begins where the last one ended, or behind it. One that
-    /// lies out of order begins nearer than that by at least its own length. An eighth of that length and the rounding of
-    /// nearness (the batch's tolerance: 1e-6 of the mesh and what the cell's own numbers carry) are allowed for: slivers and faces seen
-    /// edge-on round by more than they are long, and do not show.
+    /// Cells along a ray do not overlap, so in the right order each segment begins where the last one ended, or behind
+    /// it. One that lies out of order begins nearer than that by at least its own length. An eighth of that length and
+    /// the rounding of nearness (the batch's tolerance: 1e-6 of the mesh and what the cell's own numbers carry) are
+    /// allowed for: slivers and faces seen edge-on round by more than they are long, and do not show.
     HWY_INLINE void checkOrder(std::size_t j, std::size_t at, mask live, real in, real out, Segments& segments) {
         const real last = loadAt(px_.last + at);
         const real perRho(batch_.nearnessPerRho[j]);
@@ -340,48 +354,64 @@ void TileDrawing<Kind, Orthographic, ScaleInvariant, Peaks>::resolve(Image& imag
                 pixel = met ? glm::vec4(glm::vec3(frame_.transfer->colorAt(s)), 1.0f) : glm::vec4(0.0f);
             }
             if (colors && frame_.ordered && px_.last[i] == doubtful)
-                result_.doubtfulPixels.push_back(static_cast<std::uint32_t>(y0_ + y) * static_cast<std::uint32_t>(frame_.width) +
+                result_.doubtfulPixels.push_back(static_cast<std::uint32_t>(y0_ + y) *
+                                                     static_cast<std::uint32_t>(frame_.width) +
                                                  static_cast<std::uint32_t>(x0_ + x));
         }
 }
 
 template <TileKind Kind, bool Orthographic, bool ScaleInvariant, bool Peaks>
-void drawTileAs(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image, TileResult& result) {
+void drawTileAs(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+                TileResult& result) {
     TileDrawing<Kind, Orthographic, ScaleInvariant, Peaks> drawing(frame, x0, y0, result);
     drawing.draw(entries);
     drawing.resolve(image);
 }
 
 template <bool Orthographic>
-void drawTileIn(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image, TileResult& result) {
+void drawTileIn(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+                TileResult& result) {
     const bool peaks = !frame.transfer->peaks().empty();
     switch (frame.kind) {
-        case TileKind::Mip: return drawTileAs<TileKind::Mip, Orthographic, false, false>(frame, x0, y0, entries, image, result);
+        case TileKind::Mip:
+            return drawTileAs<TileKind::Mip, Orthographic, false, false>(frame, x0, y0, entries, image, result);
         case TileKind::Average:
             return drawTileAs<TileKind::Average, Orthographic, false, false>(frame, x0, y0, entries, image, result);
         case TileKind::Absorption:
-            if (frame.scaleInvariant) return drawTileAs<TileKind::Absorption, Orthographic, true, true>(frame, x0, y0, entries, image, result);
+            if (frame.scaleInvariant)
+                return drawTileAs<TileKind::Absorption, Orthographic, true, true>(frame, x0, y0, entries, image,
+                                                                                  result);
             return drawTileAs<TileKind::Absorption, Orthographic, false, true>(frame, x0, y0, entries, image, result);
         case TileKind::Composite:
             if (frame.scaleInvariant)
-                return peaks ? drawTileAs<TileKind::Composite, Orthographic, true, true>(frame, x0, y0, entries, image, result)
-                             : drawTileAs<TileKind::Composite, Orthographic, true, false>(frame, x0, y0, entries, image, result);
-            return peaks ? drawTileAs<TileKind::Composite, Orthographic, false, true>(frame, x0, y0, entries, image, result)
-                         : drawTileAs<TileKind::Composite, Orthographic, false, false>(frame, x0, y0, entries, image, result);
+                return peaks ? drawTileAs<TileKind::Composite, Orthographic, true, true>(frame, x0, y0, entries, image,
+                                                                                         result)
+                             : drawTileAs<TileKind::Composite, Orthographic, true, false>(frame, x0, y0, entries, image,
+                                                                                          result);
+            return peaks ? drawTileAs<TileKind::Composite, Orthographic, false, true>(frame, x0, y0, entries, image,
+                                                                                      result)
+                         : drawTileAs<TileKind::Composite, Orthographic, false, false>(frame, x0, y0, entries, image,
+                                                                                       result);
         case TileKind::Shaded:
-            if (frame.scaleInvariant) return drawTileAs<TileKind::Shaded, Orthographic, true, true>(frame, x0, y0, entries, image, result);
+            if (frame.scaleInvariant)
+                return drawTileAs<TileKind::Shaded, Orthographic, true, true>(frame, x0, y0, entries, image, result);
             return drawTileAs<TileKind::Shaded, Orthographic, false, true>(frame, x0, y0, entries, image, result);
         case TileKind::FirstHit:
             return drawTileAs<TileKind::FirstHit, Orthographic, false, true>(frame, x0, y0, entries, image, result);
     }
 }
 
-void drawTileHere(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image, TileResult& result) {
-    if (frame.orthographic) drawTileIn<true>(frame, x0, y0, entries, image, result);
-    else drawTileIn<false>(frame, x0, y0, entries, image, result);
+void drawTileHere(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+                  TileResult& result) {
+    if (frame.orthographic)
+        drawTileIn<true>(frame, x0, y0, entries, image, result);
+    else
+        drawTileIn<false>(frame, x0, y0, entries, image, result);
 }
 
-const char* instructionSet() { return hwy::TargetName(HWY_TARGET); }
+const char* instructionSet() {
+    return hwy::TargetName(HWY_TARGET);
+}
 
 }  // namespace tetralux::projection::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -392,11 +422,14 @@ namespace tetralux::projection {
 HWY_EXPORT(drawTileHere);
 HWY_EXPORT(instructionSet);
 
-void drawTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image, TileResult& result) {
+void drawTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+              TileResult& result) {
     HWY_DYNAMIC_DISPATCH(drawTileHere)(frame, x0, y0, entries, image, result);
 }
 
-const char* tileInstructionSet() { return HWY_DYNAMIC_DISPATCH(instructionSet)(); }
+const char* tileInstructionSet() {
+    return HWY_DYNAMIC_DISPATCH(instructionSet)();
+}
 
 }  // namespace tetralux::projection
 #endif

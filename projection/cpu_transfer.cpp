@@ -39,7 +39,9 @@ CpuTransfer::CpuTransfer(const preint::TransferFunction& function) : function_(f
     for (const auto& surface : function.isosurfaces) {
         if (!(surface.opacity > 0)) continue;
         const double depth = std::min(-std::log1p(-surface.opacity), largestPeakDepth);
-        peaks_.push_back({static_cast<float>(surface.value), static_cast<float>(surface.opacity), static_cast<float>(depth),
+        peaks_.push_back({static_cast<float>(surface.value),
+                          static_cast<float>(surface.opacity),
+                          static_cast<float>(depth),
                           {static_cast<float>(surface.color.x), static_cast<float>(surface.color.y),
                            static_cast<float>(surface.color.z)}});
     }
@@ -63,8 +65,9 @@ CpuTransfer::CpuTransfer(const preint::TransferFunction& function) : function_(f
     addPiece(function, low, infinity);
 
     for (auto& piece : pieces_) {
-        const auto range = std::equal_range(peaks_.begin(), peaks_.end(), TransferPeak{piece.high, 0, 0, {}},
-                                            [](const TransferPeak& a, const TransferPeak& b) { return a.value < b.value; });
+        const auto range =
+            std::equal_range(peaks_.begin(), peaks_.end(), TransferPeak{piece.high, 0, 0, {}},
+                             [](const TransferPeak& a, const TransferPeak& b) { return a.value < b.value; });
         piece.peakBegin = static_cast<std::uint32_t>(range.first - peaks_.begin());
         piece.peakEnd = static_cast<std::uint32_t>(range.second - peaks_.begin());
     }
@@ -111,7 +114,9 @@ void CpuTransfer::addPiece(const preint::TransferFunction& function, double low,
         value = static_cast<float>(width > 0 ? atLow + (middle - finiteLow) / width * (atHigh - atLow) : atLow);
     };
     if (!function.extinction.empty()) {
-        auto extinction = [&](double s) { return lineAt(function.extinction, &preint::ExtinctionNode::extinction, inside, s); };
+        auto extinction = [&](double s) {
+            return lineAt(function.extinction, &preint::ExtinctionNode::extinction, inside, s);
+        };
         line(extinction, piece.extinction, piece.extinctionSlope);
         piece.visible = piece.extinction > 0 || piece.extinctionSlope != 0;
     }
@@ -124,7 +129,7 @@ void CpuTransfer::addPiece(const preint::TransferFunction& function, double low,
 void CpuTransfer::findConstantColor() {
     constantColor_ = true;
     bool found = false;
-    auto meet = [&](const float (&color)[3]) {
+    auto meet = [&](const float(&color)[3]) {
         const glm::dvec3 value(color[0], color[1], color[2]);
         if (found && value != color_) constantColor_ = false;
         color_ = value;

@@ -19,8 +19,8 @@ struct TransferPiece {
     float low, high, middle;
     float extinction, extinctionSlope;  ///< per scene length, or per unit of scalar (scale-invariant)
     float color[3], colorSlope[3];
-    bool visible;                       ///< has extinction
-    std::uint32_t peakBegin, peakEnd;   ///< isosurfaces at `high`
+    bool visible;                      ///< has extinction
+    std::uint32_t peakBegin, peakEnd;  ///< isosurfaces at `high`
 };
 
 struct TransferPeak {

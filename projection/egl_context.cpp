@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// EGL without a window system: on a device (EGL_EXT_platform_device) or surfaceless (EGL_MESA_platform_surfaceless). The default
-// display is not tried: without X or Wayland it fails unless the environment says otherwise.
+// EGL without a window system: on a device (EGL_EXT_platform_device) or surfaceless (EGL_MESA_platform_surfaceless).
+// The default display is not tried: without X or Wayland it fails unless the environment says otherwise.
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -32,9 +32,11 @@ struct EglFunctions {
     TETRALUX_EGL_FUNCTION(MakeCurrent);
 #undef TETRALUX_EGL_FUNCTION
     // Extensions: null where the library lacks them.
-    PFNEGLGETPLATFORMDISPLAYEXTPROC getPlatformDisplay = extension<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+    PFNEGLGETPLATFORMDISPLAYEXTPROC getPlatformDisplay =
+        extension<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
     PFNEGLQUERYDEVICESEXTPROC queryDevices = extension<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
-    PFNEGLQUERYDEVICESTRINGEXTPROC queryDeviceString = extension<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+    PFNEGLQUERYDEVICESTRINGEXTPROC queryDeviceString =
+        extension<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
 
 private:
     template <class FunctionPointer>
@@ -151,7 +153,8 @@ public:
     void makeCurrent() override {
         egl().BindAPI(EGL_OPENGL_API);  // per thread
         if (egl().MakeCurrent(display_.handle(), EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
-            throw std::runtime_error(fmt::format("EGL ({}) cannot make its context current; is it current in another thread?", name_));
+            throw std::runtime_error(
+                fmt::format("EGL ({}) cannot make its context current; is it current in another thread?", name_));
         }
     }
     void release() noexcept override {
@@ -177,7 +180,8 @@ std::unique_ptr<GlContext> makeEglContext() {
             reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", candidate.name, error.what());
         }
     }
-    throw std::runtime_error(reasons.empty() ? "EGL offers neither devices nor a surfaceless platform" : "EGL: " + reasons);
+    throw std::runtime_error(reasons.empty() ? "EGL offers neither devices nor a surfaceless platform"
+                                             : "EGL: " + reasons);
 }
 
 }  // namespace tetralux::projection

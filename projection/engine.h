@@ -19,16 +19,16 @@ namespace tetralux::projection {
 /// What one frame did, for reports and benchmarks.
 struct FrameReport {
     std::uint64_t cellsDrawn = 0;
-    std::map<std::string, std::uint64_t> cellsSkipped;       ///< by reason
-    std::map<std::string, double> stageMilliseconds;         ///< wall time by stage: "sort", "setup", "draw", …
-    double frameMilliseconds = 0.0;                          ///< from the new camera to the float image in memory
-    std::uint64_t fragments = 0;                             ///< cell–pixel segments, where the engine counts them
-    std::uint64_t tilesRetired = 0;                          ///< tiles that were opaque before their cells were drawn
-    std::string orderMethod;                                 ///< how visibility order was found; "none" when not needed
+    std::map<std::string, std::uint64_t> cellsSkipped;  ///< by reason
+    std::map<std::string, double> stageMilliseconds;    ///< wall time by stage: "sort", "setup", "draw", …
+    double frameMilliseconds = 0.0;                     ///< from the new camera to the float image in memory
+    std::uint64_t fragments = 0;                        ///< cell–pixel segments, where the engine counts them
+    std::uint64_t tilesRetired = 0;                     ///< tiles that were opaque before their cells were drawn
+    std::string orderMethod;                            ///< how visibility order was found; "none" when not needed
     std::uint64_t cellsSorted = 0;
-    std::uint64_t orderCycles = 0;                           ///< cells left in cycles of the visibility relation
-    /// Pixels (y·width + x, ascending) that the engine could not order with certainty; makeEngine's engines have them composed
-    /// exactly afterwards and count them as repaired.
+    std::uint64_t orderCycles = 0;  ///< cells left in cycles of the visibility relation
+    /// Pixels (y·width + x, ascending) that the engine could not order with certainty; makeEngine's engines have them
+    /// composed exactly afterwards and count them as repaired.
     std::vector<std::uint32_t> doubtfulPixels;
     std::uint64_t pixelsRepaired = 0, pixelsWrong = 0;
 };

@@ -4,19 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
 
 namespace tetralux::projection {
 
 namespace {
 
 constexpr double largestDepthError = 1e-3;
-constexpr double planeError = 1e-7;         // of the longest edge
-constexpr double obliqueness = 3.0;         // of the error of a length over that of a plane
-constexpr double opaqueDepth = 20.0;        // exp(−20) is below float's step: more or less depth does not show
+constexpr double planeError = 1e-7;   // of the longest edge
+constexpr double obliqueness = 3.0;   // of the error of a length over that of a plane
+constexpr double opaqueDepth = 20.0;  // exp(−20) is below float's step: more or less depth does not show
 
 double largestExtinction(const preint::TransferFunction& function, double low, double high) {
     double largest = std::max(function.extinctionAt(low), function.extinctionAt(high));
@@ -38,7 +38,8 @@ CellShape shapeOf(const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {
     for (const auto& face : mesh::faceVertices) {
         const glm::dvec3& a = p[static_cast<std::size_t>(face[0])];
         const glm::dvec3 ab = p[static_cast<std::size_t>(face[1])] - a, ac = p[static_cast<std::size_t>(face[2])] - a;
-        largestFace = std::max(largestFace, glm::length(glm::cross(ab / longest, ac / longest)));  // in range for any size
+        largestFace =
+            std::max(largestFace, glm::length(glm::cross(ab / longest, ac / longest)));  // in range for any size
     }
     const double volume = std::abs(mesh::sixVolumes(p[0] / longest, p[1] / longest, p[2] / longest, p[3] / longest));
     return {longest, largestFace > 0 ? longest * volume / largestFace : 0.0};

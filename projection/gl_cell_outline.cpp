@@ -78,7 +78,8 @@ CellOutline cellOutline(const Corners& corners, double margin) {
     std::size_t positives = 0, negatives = 0;
     for (std::size_t k = 0; k < 4; ++k) {
         const auto& face = mesh::faceVertices[k];
-        const glm::dvec2 &a = corners[static_cast<std::size_t>(face[0])], &b = corners[static_cast<std::size_t>(face[1])],
+        const glm::dvec2 &a = corners[static_cast<std::size_t>(face[0])],
+                         &b = corners[static_cast<std::size_t>(face[1])],
                          &c = corners[static_cast<std::size_t>(face[2])];
         area[k] = cross(b - a, c - a);
         if (area[k] > 0) {
@@ -98,7 +99,8 @@ CellOutline cellOutline(const Corners& corners, double margin) {
         hull = {corners[positive[0]], corners[negative[0]], corners[positive[1]], corners[negative[1]]};
         if (cross(hull[2] - hull[0], hull[3] - hull[1]) < 0) std::swap(hull[1], hull[3]);
         count = 4;
-        // The two triangles of the quadrilateral meet along corners 0 and 2: a short seam shades fewer blocks of pixels twice.
+        // The two triangles of the quadrilateral meet along corners 0 and 2: a short seam shades fewer blocks of pixels
+        // twice.
         const glm::dvec2 seam = hull[2] - hull[0], other = hull[3] - hull[1];
         if (glm::dot(other, other) < glm::dot(seam, seam)) hull = {hull[1], hull[2], hull[3], hull[0]};
     } else {

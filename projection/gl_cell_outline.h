@@ -15,9 +15,9 @@ namespace tetralux::projection {
 /// corner 3 repeats corner 2.
 using CellOutline = std::array<glm::vec2, 4>;
 
-/// The convex hull of a tetrahedron's projected corners, grown by `margin` pixels on every side. Rasterizers move vertices to
-/// a grid of 1/256 pixel; with a margin above that they produce every pixel whose centre is in the hull, and the
-/// fragment shader, which knows the planes exactly, rejects the few that are not.
+/// The convex hull of a tetrahedron's projected corners, grown by `margin` pixels on every side. Rasterizers move
+/// vertices to a grid of 1/256 pixel; with a margin above that they produce every pixel whose centre is in the hull,
+/// and the fragment shader, which knows the planes exactly, rejects the few that are not.
 CellOutline cellOutline(const std::array<glm::dvec2, 4>& corners, double margin);
 
 /// The pixels of a rectangle, for cells that have no such hull because they reach behind the eye.

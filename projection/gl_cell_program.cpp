@@ -19,10 +19,14 @@ constexpr double opaqueDepth = 1e4;
 int shaderMode(Mode mode) {
     switch (mode) {
         case Mode::Standard:
-        case Mode::ScaleInvariant: return 0;
-        case Mode::Mip: return 1;
-        case Mode::Average: return 2;
-        case Mode::FirstHit: return 3;
+        case Mode::ScaleInvariant:
+            return 0;
+        case Mode::Mip:
+            return 1;
+        case Mode::Average:
+            return 2;
+        case Mode::FirstHit:
+            return 3;
     }
     return 0;
 }
@@ -32,7 +36,8 @@ glm::dvec2 shaderZone(const glm::dvec2& range) {
     return {range.x, range.y > range.x ? 1.0 / (range.y - range.x) : 0.0};
 }
 
-// "vec2(…), vec2(…)": the elements of a constant array. Constants beat uniforms by far on llvmpipe, which checks the bounds of every load.
+// "vec2(…), vec2(…)": the elements of a constant array. Constants beat uniforms by far on llvmpipe, which checks the
+// bounds of every load.
 template <class Vector>
 std::string vectorLiterals(const std::vector<Vector>& vectors) {
     std::string text;
@@ -106,8 +111,10 @@ GlTableTexture::GlTableTexture(const GlFunctions& gl, const preint::Preintegrati
     GLint largest = 0;
     gl_.GetIntegerv(target_ == GL_TEXTURE_2D ? GL_MAX_TEXTURE_SIZE : GL_MAX_3D_TEXTURE_SIZE, &largest);
     if (std::max({columns, rows, static_cast<GLsizei>(table.slices)}) > largest) {
-        throw std::runtime_error(fmt::format("pre-integration table of {} x {} x {} texels: this OpenGL renderer takes {} along an "
-                                             "axis; allow a larger table error", columns, rows, table.slices, largest));
+        throw std::runtime_error(
+            fmt::format("pre-integration table of {} x {} x {} texels: this OpenGL renderer takes {} along an "
+                        "axis; allow a larger table error",
+                        columns, rows, table.slices, largest));
     }
     gl_.GenTextures(1, &texture_);
     gl_.BindTexture(target_, texture_);
@@ -135,8 +142,9 @@ GlCellProgram::GlCellProgram(const GlFunctions& gl, const RenderSettings& settin
                              const preint::TransferFunction& function, const preint::PreintegrationTable* table,
                              bool orthographic, bool linearSampler)
     : gl_(gl),
-      program_(gl, variant(settings, extinctionSupport(function).size(), table, orthographic, linearSampler),
-               {{GL_VERTEX_SHADER, {"projection/gl_cell.vert"}}, {GL_FRAGMENT_SHADER, fragmentFiles(table != nullptr)}}),
+      program_(
+          gl, variant(settings, extinctionSupport(function).size(), table, orthographic, linearSampler),
+          {{GL_VERTEX_SHADER, {"projection/gl_cell.vert"}}, {GL_FRAGMENT_SHADER, fragmentFiles(table != nullptr)}}),
       ndcPerPixel_(program_.uniform("ndcPerPixel")),
       centre_(program_.uniform("centre")),
       viewForward_(program_.uniform("viewForward")),
@@ -173,7 +181,8 @@ void GlCellProgram::setConstants(const RenderSettings& settings, const std::vect
     std::vector<GLint> zoneAfter{table->interfaces.empty() ? 0 : table->interfaces.front().zoneBelow};
     for (const preint::Interface& entry : table->interfaces) {
         values.push_back(static_cast<float>(entry.value));
-        layers.emplace_back(glm::vec3(entry.color), static_cast<float>(std::min(-std::log1p(-entry.opacity), opaqueDepth)));
+        layers.emplace_back(glm::vec3(entry.color),
+                            static_cast<float>(std::min(-std::log1p(-entry.opacity), opaqueDepth)));
         zoneAfter.push_back(entry.zoneAbove);
     }
     const auto count = static_cast<GLsizei>(values.size());

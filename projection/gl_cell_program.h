@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Internal: the shader program of one scene and kind of camera, with all that it reads: table texture, interfaces, lights.
+/// Internal: the shader program of one scene and kind of camera, with all that it reads: table texture, interfaces,
+/// lights.
 #pragma once
 
 #include <memory>
@@ -13,7 +14,8 @@
 
 namespace tetralux::projection {
 
-/// Whether the mode composites segments, so that it needs a table (and, but for order-free functions, a visibility order).
+/// Whether the mode composites segments, so that it needs a table (and, but for order-free functions, a visibility
+/// order).
 bool modeLooksUp(Mode mode);
 
 /// A pre-integration table as a texture, 2D or 3D, zones stacked along its rows.

@@ -81,10 +81,10 @@ GlCellStream::~GlCellStream() {
 
 float* GlCellStream::map(const Buffer& buffer, std::size_t cells) const {
     gl_.BindBuffer(GL_ARRAY_BUFFER, buffer.vertices);
-    void* target = gl_.MapBufferRange(GL_ARRAY_BUFFER, 0,
-                                      static_cast<GLsizeiptr>(cells * layout_.slots() * slotBytes),
+    void* target = gl_.MapBufferRange(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(cells * layout_.slots() * slotBytes),
                                       GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
-    if (target == nullptr) throw std::runtime_error("OpenGL: no memory for a vertex buffer; close other programs that draw");
+    if (target == nullptr)
+        throw std::runtime_error("OpenGL: no memory for a vertex buffer; close other programs that draw");
     return static_cast<float*>(target);
 }
 

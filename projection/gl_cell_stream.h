@@ -20,8 +20,8 @@ namespace tetralux::projection {
 ///     slot     0         1         2         3         4 … 15           16, 17 (only with gradients)
 ///              corner 1  corner 2  corner 3  corner 0  CellRecord       CellGradient
 ///
-/// and the attributes that follow corner 0 are that record. Triangles (0, 1, 2) and (0, 2, 3) take their flat inputs from
-/// their first vertex, corner 0; what the other corners read as a record is never looked at.
+/// and the attributes that follow corner 0 are that record. Triangles (0, 1, 2) and (0, 2, 3) take their flat inputs
+/// from their first vertex, corner 0; what the other corners read as a record is never looked at.
 struct GlCellLayout {
     bool gradient = false;
     std::size_t slots() const { return gradient ? 18 : 16; }
@@ -45,9 +45,9 @@ public:
 
     /// Wall time of the calling thread, in milliseconds.
     struct Times {
-        double setup = 0;  ///< waiting for cells to be written
-        double upload = 0; ///< mapping and unmapping buffers
-        double draw = 0;   ///< in draw calls
+        double setup = 0;   ///< waiting for cells to be written
+        double upload = 0;  ///< mapping and unmapping buffers
+        double draw = 0;    ///< in draw calls
     };
 
     /// Draws `cellCount` cells in order with the current program and blending.

@@ -52,10 +52,9 @@ private:
 /// "auto" and the names of the kinds of context.
 std::vector<std::string> glContextNames();
 
-/// A new context of the kind named. "auto" takes the first that can be had of: EGL devices that are no software, EGL without
-/// a surface, EGL software devices, OSMesa.
-/// \throws std::runtime_error listing the names when `kind` is none of them; naming the Debian packages to install when
-/// no context of that kind can be had here.
+/// A new context of the kind named. "auto" takes the first that can be had of: EGL devices that are no software, EGL
+/// without a surface, EGL software devices, OSMesa. \throws std::runtime_error listing the names when `kind` is none of
+/// them; naming the Debian packages to install when no context of that kind can be had here.
 std::unique_ptr<GlContext> makeGlContext(const std::string& kind);
 
 }  // namespace tetralux::projection

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// What gl_context.cpp chooses from; each kind stands in a file of its own. To add one: such a file, a line here and a line in
-/// the list of gl_context.cpp.
+/// What gl_context.cpp chooses from; each kind stands in a file of its own. To add one: such a file, a line here and a
+/// line in the list of gl_context.cpp.
 #pragma once
 
 #include <memory>

@@ -13,7 +13,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
-#include <glm/geometric.hpp>
 #include <projection/gl_cell_program.h>
 #include <projection/gl_cell_stream.h>
 #include <projection/gl_context.h>
@@ -22,6 +21,7 @@
 #include <projection/gl_sampler_probe.h>
 #include <projection/transfer_support.h>
 #include <projection/visibility_order.h>
+#include <glm/geometric.hpp>
 
 namespace tetralux::projection {
 namespace {
@@ -56,8 +56,8 @@ double outlineMargin(const GlFunctions& gl, const CameraFrame& frame) {
     return 2.0 * std::exp2(-std::clamp(bits, 4, 8)) + 4e-7 * std::max(frame.width, frame.height);
 }
 
-/// Outlines that reach farther than this beyond the image (pixels) are drawn as rectangles instead: rasterizers compute in fixed
-/// point.
+/// Outlines that reach farther than this beyond the image (pixels) are drawn as rectangles instead: rasterizers compute
+/// in fixed point.
 constexpr float farthestCorner = 4096.0f;
 
 bool liesNear(const CellOutline& outline, const CameraFrame& frame) {
@@ -76,7 +76,8 @@ double longestEdge(const mesh::ScalarMesh& mesh, const SceneUnits& units) {
             for (std::size_t cell = range.begin(); cell != range.end(); ++cell) {
                 for (std::size_t i = 0; i < 4; ++i) {
                     for (std::size_t j = i + 1; j < 4; ++j) {
-                        const glm::dvec3 edge = mesh.positions[mesh.cells[cell][j]] - mesh.positions[mesh.cells[cell][i]];
+                        const glm::dvec3 edge =
+                            mesh.positions[mesh.cells[cell][j]] - mesh.positions[mesh.cells[cell][i]];
                         longest = std::max(longest, glm::length(edge / units.length));
                     }
                 }
@@ -237,7 +238,8 @@ std::vector<GlEngine::DrawnCell> GlEngine::selectCells(const CellProjector& proj
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 2048), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             selected[i].cell = order[i];
-            reasons[i] = cellShows_[order[i]] != 0 ? projector.bounds(order[i], selected[i].rect) : SkipReason::Invisible;
+            reasons[i] =
+                cellShows_[order[i]] != 0 ? projector.bounds(order[i], selected[i].rect) : SkipReason::Invisible;
         }
     });
     std::array<std::uint64_t, 4> skipped{};
@@ -293,8 +295,8 @@ Image GlEngine::render(const Camera& camera, FrameReport& report) {
     setBlending();
     stages["draw"] = watch.lap();
     const double margin = outlineMargin(gl, frame);
-    const GlCellStream::Times times = state_->stream->draw(
-        cells.size(), [&](std::size_t begin, std::size_t end, float* target) {
+    const GlCellStream::Times times =
+        state_->stream->draw(cells.size(), [&](std::size_t begin, std::size_t end, float* target) {
             writeCells(projector, frame, margin, cells.data() + begin, end - begin, target);
         });
     watch.lap();

@@ -31,9 +31,10 @@ void GlFrameTarget::resize(int width, int height) {
     }
     if (texture_ == 0 || gl_.GetError() != GL_NO_ERROR ||
         gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        throw std::runtime_error(
-            fmt::format("image size {}x{}: this OpenGL renderer has no float target of that size; choose a smaller size "
-                        "or another engine", width, height));
+        throw std::runtime_error(fmt::format(
+            "image size {}x{}: this OpenGL renderer has no float target of that size; choose a smaller size "
+            "or another engine",
+            width, height));
     }
     width_ = width;
     height_ = height;

@@ -8,8 +8,8 @@
 
 namespace tetralux::projection {
 
-/// An RGBA32F framebuffer: blending into half floats or bytes loses up to 0.2 and 0.9 of the opacity of 2,000 thin layers.
-/// Its row 0 is the image's top row.
+/// An RGBA32F framebuffer: blending into half floats or bytes loses up to 0.2 and 0.9 of the opacity of 2,000 thin
+/// layers. Its row 0 is the image's top row.
 class GlFrameTarget {
 public:
     explicit GlFrameTarget(const GlFunctions& gl);

@@ -14,9 +14,9 @@ std::unique_ptr<GlFunctions> loadGlFunctions(const GlContext& context) {
         [](void* user, const char* name) { return static_cast<const GlContext*>(user)->functionAddress(name); },
         const_cast<GlContext*>(&context));
     if (version < GLAD_MAKE_VERSION(4, 3)) {
-        throw std::runtime_error(fmt::format("context {}: OpenGL {}.{} is too old; 4.3 is needed, which Mesa's llvmpipe has",
-                                             context.description(), GLAD_VERSION_MAJOR(version),
-                                             GLAD_VERSION_MINOR(version)));
+        throw std::runtime_error(
+            fmt::format("context {}: OpenGL {}.{} is too old; 4.3 is needed, which Mesa's llvmpipe has",
+                        context.description(), GLAD_VERSION_MAJOR(version), GLAD_VERSION_MINOR(version)));
     }
     return functions;
 }

@@ -40,8 +40,9 @@ GLuint compileShader(const GlFunctions& gl, const GlDefines& defines, const GlSh
     std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
     gl.GetShaderInfoLog(shader, length, nullptr, log.data());
     gl.DeleteShader(shader);
-    throw std::runtime_error(fmt::format("shader {}: the driver rejects it ({}); please report this with the driver's name",
-                                         source.files.back(), oneLine(log)));
+    throw std::runtime_error(
+        fmt::format("shader {}: the driver rejects it ({}); please report this with the driver's name",
+                    source.files.back(), oneLine(log)));
 }
 
 }  // namespace
@@ -62,8 +63,10 @@ GlProgram::GlProgram(const GlFunctions& gl, const GlDefines& defines, std::initi
             GLsizei length = 0;
             gl.GetProgramInfoLog(program_, static_cast<GLsizei>(log.size()), &length, log.data());
             log.resize(static_cast<std::size_t>(length));
-            throw std::runtime_error(fmt::format("shader program: the driver does not link it ({}); please report this with the "
-                                                 "driver's name", oneLine(log)));
+            throw std::runtime_error(
+                fmt::format("shader program: the driver does not link it ({}); please report this with the "
+                            "driver's name",
+                            oneLine(log)));
         }
     } catch (...) {
         gl.DeleteProgram(program_);

@@ -10,8 +10,9 @@
 namespace tetralux::projection {
 
 bool linearSamplerIsExact(const GlFunctions& gl) {
-    const GlProgram program(gl, {}, {{GL_VERTEX_SHADER, {"projection/gl_full_screen.vert"}},
-                                     {GL_FRAGMENT_SHADER, {"projection/gl_sampler_probe.frag"}}});
+    const GlProgram program(gl, {},
+                            {{GL_VERTEX_SHADER, {"projection/gl_full_screen.vert"}},
+                             {GL_FRAGMENT_SHADER, {"projection/gl_sampler_probe.frag"}}});
     GLuint texture = 0, vertexArray = 0;
     gl.GenTextures(1, &texture);
     gl.GenVertexArrays(1, &vertexArray);

@@ -16,8 +16,12 @@ struct Image {
 
     Image() = default;
     Image(int w, int h) : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
-    glm::vec4& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]; }
-    const glm::vec4& at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]; }
+    glm::vec4& at(int x, int y) {
+        return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+    }
+    const glm::vec4& at(int x, int y) const {
+        return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+    }
 };
 
 /// Differences over all four channels of all pixels.
@@ -33,8 +37,8 @@ ImageDifference compareImages(const Image& a, const Image& b);
 /// The image over a colour: premultiplied composition, alpha becomes 1.
 void putUnder(Image& image, const glm::vec3& background);
 
-/// Writes `.png` (8 bits, over black where it is not opaque) or `.exr` (32-bit float RGBA) by extension. The file appears whole or not at
-/// all: it is written beside and renamed. \throws std::runtime_error
+/// Writes `.png` (8 bits, over black where it is not opaque) or `.exr` (32-bit float RGBA) by extension. The file
+/// appears whole or not at all: it is written beside and renamed. \throws std::runtime_error
 void writeImage(const Image& image, const std::string& path);
 
 /// Finds out before any work whether writeImage could write `path`: its ending, its folder, the right to write there.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// OSMesa: Mesa's software renderer as a plain library, for machines without EGL. Mesa 25.1 removed it together with its header,
-// so the six functions and the constants that are used are declared here instead of being included.
+// OSMesa: Mesa's software renderer as a plain library, for machines without EGL. Mesa 25.1 removed it together with its
+// header, so the six functions and the constants that are used are declared here instead of being included.
 #include <array>
 #include <stdexcept>
 
@@ -38,10 +38,9 @@ class OsMesaContext final : public GlContext {
 public:
     OsMesaContext() {
         for (const GlVersion version : glVersions) {
-            const int attributes[] = {osMesaFormat,      osMesaRgba,    osMesaDepthBits, 0,
-                                      osMesaStencilBits, 0,             osMesaProfile,   osMesaCoreProfile,
-                                      osMesaMajor,       version.major, osMesaMinor,     version.minor,
-                                      0,                 0};
+            const int attributes[] = {
+                osMesaFormat,      osMesaRgba,  osMesaDepthBits, 0,           osMesaStencilBits, 0, osMesaProfile,
+                osMesaCoreProfile, osMesaMajor, version.major,   osMesaMinor, version.minor,     0, 0};
             context_ = osMesa().createContextAttribs(attributes, nullptr);
             if (context_ != nullptr) return;
         }
@@ -51,7 +50,8 @@ public:
 
     void makeCurrent() override {
         if (osMesa().makeCurrent(context_, buffer_.data(), osMesaUnsignedByte, 1, 1) == 0) {
-            throw std::runtime_error("OSMesa cannot make its context current; is another context current in this thread?");
+            throw std::runtime_error(
+                "OSMesa cannot make its context current; is another context current in this thread?");
         }
     }
     void release() noexcept override { osMesa().makeCurrent(nullptr, nullptr, osMesaUnsignedByte, 0, 0); }

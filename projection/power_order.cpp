@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
 
 namespace tetralux::projection {
 
@@ -17,8 +17,8 @@ namespace {
 /// Rounds of relaxation before what is left counts as failing.
 constexpr int mostRounds = 40;
 
-/// How far above the neighbour's continued function a vertex is moved, in squared lengths of the shortest edge at the face:
-/// enough for keys of 32 bits to tell the cells apart.
+/// How far above the neighbour's continued function a vertex is moved, in squared lengths of the shortest edge at the
+/// face: enough for keys of 32 bits to tell the cells apart.
 constexpr double wantedMargin = 0.02;
 
 /// Share of the wanted margin that is good enough, and the rounding that no margin may drown in.
@@ -132,7 +132,8 @@ PowerOrder::PowerOrder(const mesh::ScalarMesh& mesh, const mesh::Adjacency& adja
         for (std::size_t face : failing) satisfy(conditions.at(face), heights_);
         const std::size_t before = failing.size();
         failing = conditions.failing(heights_);
-        if (round > 8 && failing.size() > before - before / 50) break;  // no longer getting better: no such heights exist
+        if (round > 8 && failing.size() > before - before / 50)
+            break;  // no longer getting better: no such heights exist
     }
     failingFaces_ = failing.size();
 }

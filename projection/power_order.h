@@ -2,14 +2,15 @@
 /// \file
 /// Visibility order by one number per cell, with a proof.
 ///
-/// Give every mesh point a height. If the function that interpolates the heights linearly in each cell is convex, then at
-/// any eye the cell's own linear function, continued to the eye, is larger the nearer the cell: between two neighbours the functions
-/// agree on the shared face and the farther one's is larger beyond it (Edelsbrunner 1990; Max, Hanrahan & Crawfis 1990
-/// for the case of Delaunay meshes, where the height is |x|² and the number is minus the eye's power to the circumsphere). So
-/// sorting any subset of the cells by it is exactly their visibility order, from every eye.
+/// Give every mesh point a height. If the function that interpolates the heights linearly in each cell is convex, then
+/// at any eye the cell's own linear function, continued to the eye, is larger the nearer the cell: between two
+/// neighbours the functions agree on the shared face and the farther one's is larger beyond it (Edelsbrunner 1990; Max,
+/// Hanrahan & Crawfis 1990 for the case of Delaunay meshes, where the height is |x|² and the number is minus the eye's
+/// power to the circumsphere). So sorting any subset of the cells by it is exactly their visibility order, from every
+/// eye.
 ///
-/// Heights start at |x|² and are moved by relaxation (Agmon; Motzkin & Schoenberg 1954) until every inner face is convex, which
-/// settles cospherical points (every grid) and mildly non-Delaunay meshes. What is left over is counted.
+/// Heights start at |x|² and are moved by relaxation (Agmon; Motzkin & Schoenberg 1954) until every inner face is
+/// convex, which settles cospherical points (every grid) and mildly non-Delaunay meshes. What is left over is counted.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +29,9 @@ public:
     /// across every face, and with a convex boundary (boundaryIsConvex) right altogether.
     std::uint64_t failingFaces() const { return failingFaces_; }
 
-    /// Heights of the mesh points, in squared mesh diagonals. The key of a cell is Σ λ_k(eye)·height[k] over its vertices (orthographic: with
-    /// the rates of λ_k towards the eye, see CellProjector::eyeCoordinates): the larger, the nearer.
+    /// Heights of the mesh points, in squared mesh diagonals. The key of a cell is Σ λ_k(eye)·height[k] over its
+    /// vertices (orthographic: with the rates of λ_k towards the eye, see CellProjector::eyeCoordinates): the larger,
+    /// the nearer.
     const std::vector<double>& heights() const { return heights_; }
 
 private:

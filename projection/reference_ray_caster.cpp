@@ -9,11 +9,11 @@
 #include <numeric>
 #include <optional>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <projection/cell_shading.h>
 #include <projection/edge_side.h>
@@ -22,8 +22,8 @@ namespace tetralux::projection {
 
 namespace {
 
-/// Rays run this much beside the pixel's centre (pixels), so that none lies exactly within faces of a grid that is aligned
-/// with the view. It moves the picture by some 1e-10.
+/// Rays run this much beside the pixel's centre (pixels), so that none lies exactly within faces of a grid that is
+/// aligned with the view. It moves the picture by some 1e-10.
 constexpr double rayShiftX = 0x1p-32, rayShiftY = 0x1p-33;
 
 /// A point of the mesh seen along a ray: offset across the ray (two axes) and distance along it.
@@ -57,8 +57,9 @@ struct Crossing {
     bool enters;
 };
 
-/// Crossing point and scalar are convex combinations of the face's corners, taken in the order of the point numbers: both cells
-/// of a face get the same numbers to the bit, so an isosurface on the face is crossed in exactly one of them.
+/// Crossing point and scalar are convex combinations of the face's corners, taken in the order of the point numbers:
+/// both cells of a face get the same numbers to the bit, so an isosurface on the face is crossed in exactly one of
+/// them.
 std::optional<Crossing> crossFace(const std::array<RayPoint, 4>& v, const mesh::ScalarMesh& mesh, mesh::CellIndex cell,
                                   std::size_t face) {
     const mesh::Tetrahedron& points = mesh.cells[cell];
@@ -78,7 +79,8 @@ std::optional<Crossing> crossFace(const std::array<RayPoint, 4>& v, const mesh::
                                       static_cast<std::size_t>(corners[2])};
     const glm::dvec2 &qa = v[a].across, &qb = v[b].across, &qc = v[c].across;
     const bool positive = passesPositive(qb, qc, points[b], points[c]);
-    if (positive != passesPositive(qc, qa, points[c], points[a]) || positive != passesPositive(qa, qb, points[a], points[b]))
+    if (positive != passesPositive(qc, qa, points[c], points[a]) ||
+        positive != passesPositive(qa, qb, points[a], points[b]))
         return std::nullopt;
     const double wa = edgeSide(qb, qc), wb = edgeSide(qc, qa), wc = edgeSide(qa, qb);
     const double sum = wa + wb + wc;
@@ -88,10 +90,10 @@ std::optional<Crossing> crossFace(const std::array<RayPoint, 4>& v, const mesh::
         return atA + wb / sum * (atB - atA) + wc / sum * (atC - atA);
     };
     // across × other = direction, so a face that shows its outside to the eye has a negative area
-    return Crossing{blend(v[a].t, v[b].t, v[c].t),
-                    blend(mesh.scalarAt(cell, corners[0]), mesh.scalarAt(cell, corners[1]),
-                          mesh.scalarAt(cell, corners[2])),
-                    positive == flipped};
+    return Crossing{
+        blend(v[a].t, v[b].t, v[c].t),
+        blend(mesh.scalarAt(cell, corners[0]), mesh.scalarAt(cell, corners[1]), mesh.scalarAt(cell, corners[2])),
+        positive == flipped};
 }
 
 /// Cuts the ray by one cell.
@@ -129,7 +131,7 @@ struct ReferenceRayCaster::Pass {
     const ReferenceRayCaster& caster;
     const CameraFrame frame;
     Image& image;
-    std::vector<bool> wanted;  // empty: all pixels
+    std::vector<bool> wanted;        // empty: all pixels
     std::vector<glm::dvec3> points;  // camera space: pixels·depth (or pixels when orthographic) twice, and depth
     std::vector<std::atomic<bool>> met;
     std::atomic<std::uint64_t> segmentCount{0}, overlapCount{0};
@@ -145,8 +147,8 @@ struct ReferenceRayCaster::Pass {
         });
     }
 
-    /// Whether a cell reaches beyond the line `position` of the image (pixels from the axis) on the side `sign`. The line and the eye
-    /// span a plane; this holds also for what lies behind the eye.
+    /// Whether a cell reaches beyond the line `position` of the image (pixels from the axis) on the side `sign`. The
+    /// line and the eye span a plane; this holds also for what lies behind the eye.
     bool reaches(mesh::CellIndex cell, int axis, double position, double sign) const {
         return anyCorner(cell, [&](const glm::dvec3& p) {
             return sign * (p[axis] - position * (frame.orthographic ? 1.0 : p.z)) >= 0;
@@ -171,7 +173,8 @@ struct ReferenceRayCaster::Pass {
         if (wanted.empty()) return true;
         for (int y = y0; y < y1; ++y)
             for (int x = x0; x < x1; ++x)
-                if (wanted[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x)])
+                if (wanted[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
+                           static_cast<std::size_t>(x)])
                     return true;
         return false;
     }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// The yardstick: every pixel's ray cut by every cell that it meets, in double precision, straight from the definition of
-/// the image. It shares no formula of projection or integration with the fast engines: no table, no projected planes.
+/// The yardstick: every pixel's ray cut by every cell that it meets, in double precision, straight from the definition
+/// of the image. It shares no formula of projection or integration with the fast engines: no table, no projected
+/// planes.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +27,8 @@ struct RaySegment {
 struct RayCastCounts {
     std::uint64_t cellsDrawn = 0;  ///< cells that at least one ray meets
     std::uint64_t segments = 0;
-    std::uint64_t overlaps = 0;    ///< segments that begin clearly before the previous one ended: cells that interpenetrate
+    std::uint64_t overlaps =
+        0;  ///< segments that begin clearly before the previous one ended: cells that interpenetrate
 };
 
 class ReferenceRayCaster {
@@ -39,7 +41,8 @@ public:
     /// Only the pixels named (y·width + x, ascending), written into `image`, which has the camera's size.
     void renderPixels(const Camera& camera, const std::vector<std::uint32_t>& pixels, Image& image) const;
 
-    /// The segments of the ray through pixel coordinates (x, y), whole at pixel centres, sorted by depth: for tests and inspection. O(cells).
+    /// The segments of the ray through pixel coordinates (x, y), whole at pixel centres, sorted by depth: for tests and
+    /// inspection. O(cells).
     std::vector<RaySegment> segmentsAt(const Camera& camera, double x, double y) const;
 
 private:

@@ -55,16 +55,17 @@ std::vector<glm::dvec2> extinctionSupport(const preint::TransferFunction& functi
     return support;
 }
 
-bool rangeShows(const preint::TransferFunction& function, const std::vector<glm::dvec2>& support, double low, double high,
-                preint::Integral integral) {
+bool rangeShows(const preint::TransferFunction& function, const std::vector<glm::dvec2>& support, double low,
+                double high, preint::Integral integral) {
     if (integral == preint::Integral::ScaleInvariant && low == high) return false;
     if (std::any_of(support.begin(), support.end(),
                     [&](const glm::dvec2& interval) { return high > interval.x && low < interval.y; })) {
         return true;
     }
-    return std::any_of(function.isosurfaces.begin(), function.isosurfaces.end(), [&](const preint::Isosurface& surface) {
-        return surface.opacity > 0 && low < surface.value && surface.value <= high;
-    });
+    return std::any_of(function.isosurfaces.begin(), function.isosurfaces.end(),
+                       [&](const preint::Isosurface& surface) {
+                           return surface.opacity > 0 && low < surface.value && surface.value <= high;
+                       });
 }
 
 CellVisibility::CellVisibility(const mesh::ScalarMesh& mesh, const preint::TransferFunction& function,
@@ -83,7 +84,8 @@ bool CellVisibility::shows(mesh::CellIndex cell) const {
     }
     if (!rangeShows(exact_.function(), support_, low, high, integral_)) return false;
     const auto& surfaces = exact_.function().isosurfaces;
-    if (std::any_of(surfaces.begin(), surfaces.end(), [&](const auto& s) { return low < s.value && s.value <= high; })) return true;
+    if (std::any_of(surfaces.begin(), surfaces.end(), [&](const auto& s) { return low < s.value && s.value <= high; }))
+        return true;
     const double extent = integral_ == preint::Integral::ScaleInvariant ? high - low : longestEdge(mesh_, cell);
     return exact_.largestExtinction(low, high) * extent > leastDepth_;
 }

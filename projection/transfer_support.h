@@ -13,21 +13,24 @@
 
 namespace tetralux::projection {
 
-/// The open intervals of scalars (low, high) with extinction, ascending, disjoint; −∞ and ∞ where an outer node has extinction. A low end at
-/// which the extinction jumps up holds itself (the value there is that from above): it is moved down by 1e-7 of the nodes' range.
+/// The open intervals of scalars (low, high) with extinction, ascending, disjoint; −∞ and ∞ where an outer node has
+/// extinction. A low end at which the extinction jumps up holds itself (the value there is that from above): it is
+/// moved down by 1e-7 of the nodes' range.
 std::vector<glm::dvec2> extinctionSupport(const preint::TransferFunction& function);
 
 /// Whether segments with scalars within [low, high] can have opacity.
-bool rangeShows(const preint::TransferFunction& function, const std::vector<glm::dvec2>& support, double low, double high,
-                preint::Integral integral);
+bool rangeShows(const preint::TransferFunction& function, const std::vector<glm::dvec2>& support, double low,
+                double high, preint::Integral integral);
 
 /// Which cells of a mesh show anything at all.
 class CellVisibility {
 public:
-    CellVisibility(const mesh::ScalarMesh& mesh, const preint::TransferFunction& function, const RenderSettings& settings);
+    CellVisibility(const mesh::ScalarMesh& mesh, const preint::TransferFunction& function,
+                   const RenderSettings& settings);
 
-    /// False where the cell's opacity is zero or, but in first-hit mode and with silhouettes, which take any opacity for something, at most
-    /// half of float's step at 1 along any ray: it would change no opaque pixel, and others by less than float's own error.
+    /// False where the cell's opacity is zero or, but in first-hit mode and with silhouettes, which take any opacity
+    /// for something, at most half of float's step at 1 along any ray: it would change no opaque pixel, and others by
+    /// less than float's own error.
     bool shows(mesh::CellIndex cell) const;
 
 private:

@@ -30,8 +30,9 @@ std::vector<std::uint32_t> chosenPixels(std::size_t pixelCount, std::size_t samp
 Verification verifyImage(const Image& image, const Scene& scene, const Camera& camera, std::size_t samples,
                          std::uint32_t seed) {
     if (image.width != camera.width || image.height != camera.height)
-        throw std::runtime_error(fmt::format("verification: the image is {}x{}, the camera's {}x{}; verify the image as it was rendered",
-                                             image.width, image.height, camera.width, camera.height));
+        throw std::runtime_error(
+            fmt::format("verification: the image is {}x{}, the camera's {}x{}; verify the image as it was rendered",
+                        image.width, image.height, camera.width, camera.height));
     const std::vector<std::uint32_t> pixels = chosenPixels(image.pixels.size(), samples, seed);
     Image exact(image.width, image.height);
     ReferenceRayCaster(scene).renderPixels(camera, pixels, exact);
@@ -55,7 +56,8 @@ Verification verifyImage(const Image& image, const Scene& scene, const Camera& c
     const double n = static_cast<double>(pixels.size()), all = static_cast<double>(image.pixels.size());
     const double mean = sum / n;
     const double variance = n > 1 ? std::max(0.0, (sumOfSquares - n * mean * mean) / (n - 1)) : 0.0;
-    const double unsampled = all > 1 ? (all - n) / (all - 1) : 0.0;  // nothing is uncertain once every pixel is in the sample
+    const double unsampled =
+        all > 1 ? (all - n) / (all - 1) : 0.0;  // nothing is uncertain once every pixel is in the sample
     result.rmse = std::sqrt(mean);
     result.rmseBound = std::sqrt(mean + normalQuantile95 * std::sqrt(variance / n * unsampled));
     result.unseenShare = n < all ? std::min(1.0, 3.0 / n) : 0.0;

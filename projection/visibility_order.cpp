@@ -5,8 +5,8 @@
 #include <atomic>
 #include <queue>
 
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
 
 #include <projection/boundary_reentry.h>
 #include <projection/cell_setup.h>
@@ -19,8 +19,7 @@ struct VisibilitySorter::State {
     std::vector<BoundaryFace> boundary;  // empty when it is convex: nothing to look for
     bool convex = false;
 
-    explicit State(const mesh::ScalarMesh& m)
-        : mesh(m), adjacency(mesh::buildAdjacency(m.cells, m.positions.size())) {
+    explicit State(const mesh::ScalarMesh& m) : mesh(m), adjacency(mesh::buildAdjacency(m.cells, m.positions.size())) {
         boundary = boundaryFaces(adjacency);
         convex = adjacency.nonManifoldFaces == 0 && adjacency.foldedFaces == 0 && boundaryIsConvex(mesh, boundary);
         if (convex) boundary = {};
@@ -37,7 +36,9 @@ class VisibilityGraph {
 public:
     VisibilityGraph(const mesh::Adjacency& adjacency, const CellProjector& projector,
                     const std::vector<std::pair<mesh::CellIndex, mesh::CellIndex>>& reentry)
-        : adjacency_(adjacency), reentry_(reentry), frontFaces_(adjacency.neighbours.size()),
+        : adjacency_(adjacency),
+          reentry_(reentry),
+          frontFaces_(adjacency.neighbours.size()),
           nearer_(adjacency.neighbours.size()) {
         tbb::parallel_for(std::size_t{0}, frontFaces_.size(), [&](std::size_t i) {
             const auto cell = static_cast<mesh::CellIndex>(i);
@@ -98,8 +99,8 @@ double distanceOf(const mesh::ScalarMesh& mesh, const CameraFrame& frame, mesh::
 
 }  // namespace
 
-/// Williams' MPVO as a topological sort over the graph (Kahn), nearest first. Where only cycles are left the nearest remaining cell is taken
-/// out of turn; that can be wrong only in the pixels that it covers, and those are named.
+/// Williams' MPVO as a topological sort over the graph (Kahn), nearest first. Where only cycles are left the nearest
+/// remaining cell is taken out of turn; that can be wrong only in the pixels that it covers, and those are named.
 VisibilityOrder VisibilitySorter::sort(const CameraFrame& frame) const {
     const mesh::ScalarMesh& mesh = state_->mesh;
     const CellProjector projector(mesh, sceneUnits(mesh), frame);
@@ -140,7 +141,8 @@ VisibilityOrder VisibilitySorter::sort(const CameraFrame& frame) const {
             if (projector.bounds(cell, rect) == SkipReason::None)
                 for (int y = rect.y0; y < rect.y1; ++y)
                     for (int x = rect.x0; x < rect.x1; ++x)
-                        doubtful[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x)] = true;
+                        doubtful[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
+                                 static_cast<std::size_t>(x)] = true;
             graph.force(cell);
             take(cell);
             drain();

@@ -16,10 +16,10 @@ namespace tetralux::projection {
 
 struct VisibilityOrder {
     std::vector<mesh::CellIndex> frontToBack;
-    std::string method;                 ///< "mpvo", "mpvo+reentry", …
-    std::uint64_t cyclicCells = 0;      ///< cells for which no order exists; they come last
-    /// Pixels in which the order cannot be trusted (cycles, overlapping cells), as y·width + x, ascending. An engine that composites
-    /// in this order has those pixels composed exactly by other means.
+    std::string method;             ///< "mpvo", "mpvo+reentry", …
+    std::uint64_t cyclicCells = 0;  ///< cells for which no order exists; they come last
+    /// Pixels in which the order cannot be trusted (cycles, overlapping cells), as y·width + x, ascending. An engine
+    /// that composites in this order has those pixels composed exactly by other means.
     std::vector<std::uint32_t> doubtfulPixels;
 };
 

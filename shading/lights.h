@@ -13,11 +13,11 @@ struct DirectionalLight {
 };
 
 struct ShadingSettings {
-    bool silhouette = false;             ///< Kraus 2005, Equations 15 and 17
+    bool silhouette = false;               ///< Kraus 2005, Equations 15 and 17
     std::vector<DirectionalLight> lights;  ///< none: colours are emitted as they are
-    double ambient = 0.1;                ///< intensity of ambient light, used when there are lights
-    double exponent = 32.0;              ///< of the specular lobes
-    bool transmission = true;            ///< diffuse and specular light through the cell
+    double ambient = 0.1;                  ///< intensity of ambient light, used when there are lights
+    double exponent = 32.0;                ///< of the specular lobes
+    bool transmission = true;              ///< diffuse and specular light through the cell
 
     bool lit() const { return !lights.empty(); }
     bool needsGradient() const { return silhouette || lit(); }

@@ -3,8 +3,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <projection/camera.h>
 
@@ -22,7 +22,8 @@ Camera wideCamera() {
 
 // the definition, written out with other operations than the code's
 glm::dvec3 definedDirection(const Camera& c, int x, int y) {
-    const glm::dvec3 f = glm::normalize(c.target - c.eye), r = glm::normalize(glm::cross(f, c.up)), u = glm::cross(r, f);
+    const glm::dvec3 f = glm::normalize(c.target - c.eye), r = glm::normalize(glm::cross(f, c.up)),
+                     u = glm::cross(r, f);
     const double t = std::tan(c.fovDegrees / 2 * std::numbers::pi / 180);
     return glm::normalize(f + ((2 * (x + 0.5) - c.width) / c.height) * t * r +
                           ((c.height - 2 * (y + 0.5)) / c.height) * t * u);

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <mesh/adjacency.h>
 #include <projection/cell_interval.h>
@@ -36,12 +36,16 @@ Interval evaluate(const CellRecord& r, const CameraFrame& frame, int x, int y) {
     if (!(in > out)) return {};
     if (frame.orthographic)
         return {true, glsl::segmentLengthOrthographic(r.scale, in, out),
-                glsl::scalarOrthographic(r.scalar, r.scalarPerX, r.scalarPerY, r.scalarPerRho, dx, dy, in, r.scalarLow, r.scalarHigh),
-                glsl::scalarOrthographic(r.scalar, r.scalarPerX, r.scalarPerY, r.scalarPerRho, dx, dy, out, r.scalarLow, r.scalarHigh)};
+                glsl::scalarOrthographic(r.scalar, r.scalarPerX, r.scalarPerY, r.scalarPerRho, dx, dy, in, r.scalarLow,
+                                         r.scalarHigh),
+                glsl::scalarOrthographic(r.scalar, r.scalarPerX, r.scalarPerY, r.scalarPerRho, dx, dy, out, r.scalarLow,
+                                         r.scalarHigh)};
     const glm::dvec3 offset = (x - frame.centre.x) * frame.perPixelRight + (y - frame.centre.y) * frame.perPixelDown;
     return {true, glsl::segmentLengthPerspective(r.scale, in, out, glm::length(frame.forward + offset)),
-            glsl::scalarPerspective(r.scalar, r.scalarPerX, r.scalarPerY, r.scalarPerRho, dx, dy, in, r.scalarLow, r.scalarHigh),
-            glsl::scalarPerspective(r.scalar, r.scalarPerX, r.scalarPerY, r.scalarPerRho, dx, dy, out, r.scalarLow, r.scalarHigh)};
+            glsl::scalarPerspective(r.scalar, r.scalarPerX, r.scalarPerY, r.scalarPerRho, dx, dy, in, r.scalarLow,
+                                    r.scalarHigh),
+            glsl::scalarPerspective(r.scalar, r.scalarPerX, r.scalarPerY, r.scalarPerRho, dx, dy, out, r.scalarLow,
+                                    r.scalarHigh)};
 }
 
 struct Worst {
@@ -65,7 +69,8 @@ Worst compare(const Scene& scene, const Camera& camera, int stride) {
             for (mesh::CellIndex c = 0; c < m.cells.size(); ++c) {
                 PixelRect rect;
                 Interval found;
-                if (projector.bounds(c, rect) == SkipReason::None && x >= rect.x0 && x < rect.x1 && y >= rect.y0 && y < rect.y1)
+                if (projector.bounds(c, rect) == SkipReason::None && x >= rect.x0 && x < rect.x1 && y >= rect.y0 &&
+                    y < rect.y1)
                     found = evaluate(projector.record(c, rect), frame, x, y);
                 const double expected = byCell[c] ? (byCell[c]->tOut - byCell[c]->tIn) / units.length : 0.0;
                 worst.length = std::max(worst.length, std::abs(found.length - expected));
@@ -79,7 +84,9 @@ Worst compare(const Scene& scene, const Camera& camera, int stride) {
     return worst;
 }
 
-double wave(const glm::dvec3& p) { return std::sin(3 * p.x) + p.y * p.z; }
+double wave(const glm::dvec3& p) {
+    return std::sin(3 * p.x) + p.y * p.z;
+}
 
 // Thresholds: float's 6e-8 times the slope of the steepest faces, which a jitter of 0.2 brings to some 10.
 TEST(CellSetup, RecordsAgreeWithTheReference) {
@@ -96,7 +103,8 @@ TEST(CellSetup, EyeOnAVertexAnEdgeAFaceOfTheMesh) {
     const Scene scene = sceneOf(boxMesh(5, wave), constantFunction(1));
     for (const glm::dvec3& eye : {glm::dvec3(0.25, 0.5, 0.5), glm::dvec3(0.3, 0.5, 0.5), glm::dvec3(0.3, 0.55, 0.5),
                                   glm::dvec3(0, 0, 0), glm::dvec3(0.5, 0.5, 1)}) {
-        const Worst worst = compare(scene, cameraAt(eye, eye == glm::dvec3(0) ? glm::dvec3(0.5) : glm::dvec3(1, 0.6, 0.5)), 3);
+        const Worst worst =
+            compare(scene, cameraAt(eye, eye == glm::dvec3(0) ? glm::dvec3(0.5) : glm::dvec3(1, 0.6, 0.5)), 3);
         EXPECT_GT(worst.compared, 300);
         EXPECT_LT(worst.length, 2e-6) << eye.x << ' ' << eye.y << ' ' << eye.z;
         EXPECT_LT(worst.scalar, 2e-6) << eye.x << ' ' << eye.y << ' ' << eye.z;
@@ -123,8 +131,9 @@ TEST(CellSetup, SizeAndOffsetOfTheMeshDoNotMatter) {
             const glm::dvec3 shift = scale * offset * glm::dvec3(1, -0.5, 0.25);
             for (auto& p : moved.positions) p = p * scale + shift;
             moved = finished(std::move(moved));
-            const Worst worst = compare(sceneOf(moved, constantFunction(1 / scale)),
-                                        cameraAt(glm::dvec3(1.9, 1.4, 2.3) * scale + shift, glm::dvec3(0.5) * scale + shift), 4);
+            const Worst worst =
+                compare(sceneOf(moved, constantFunction(1 / scale)),
+                        cameraAt(glm::dvec3(1.9, 1.4, 2.3) * scale + shift, glm::dvec3(0.5) * scale + shift), 4);
             EXPECT_GT(worst.compared, 50);
             EXPECT_LT(worst.length, 2e-6) << scale << ' ' << offset;
             EXPECT_LT(worst.scalar, 2e-6) << scale << ' ' << offset;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures of the tile engine against closed forms, against the reference, and against itself with each shortcut switched off.
+// Pictures of the tile engine against closed forms, against the reference, and against itself with each shortcut
+// switched off.
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <mesh/procedural_field.h>
 #include <projection/cell_setup.h>
@@ -87,10 +88,15 @@ preint::TransferFunction functionOf(const std::string& name, double low, double 
         return function;
     }
     auto function = smoothFunction(low, high, 25.0 / extent);
-    if (name == "opaque") function.extinction = {{at(0.0), 0.0}, {at(0.2), 0.0}, {at(0.3), 400.0 / extent}, {at(1.0), 3000.0 / extent}};
+    if (name == "opaque")
+        function.extinction = {{at(0.0), 0.0}, {at(0.2), 0.0}, {at(0.3), 400.0 / extent}, {at(1.0), 3000.0 / extent}};
     if (name == "constant") function.color = {{at(0.0), {0.9, 0.5, 0.2}}};
     if (name == "jumps") {
-        function.extinction = {{at(0.0), 0.5 / extent}, {at(0.4), 1.0 / extent}, {at(0.4), 12.0 / extent}, {at(0.7), 8.0 / extent}, {at(0.7), 0.0}};
+        function.extinction = {{at(0.0), 0.5 / extent},
+                               {at(0.4), 1.0 / extent},
+                               {at(0.4), 12.0 / extent},
+                               {at(0.7), 8.0 / extent},
+                               {at(0.7), 0.0}};
         function.color = {{at(0.2), {1, 0, 0}}, {at(0.5), {0, 1, 0}}, {at(0.5), {0, 0, 1}}, {at(1.0), {1, 1, 0}}};
     }
     return function;
@@ -113,7 +119,8 @@ TEST_P(CpuModes, AreLikeTheReference) {
 
 INSTANTIATE_TEST_SUITE_P(Fields, CpuModes,
                          testing::Combine(testing::Values("bucky", "coulomb", "marschner-lobb", "hydrogen"),
-                                          testing::Values(Mode::Standard, Mode::ScaleInvariant, Mode::Mip, Mode::Average, Mode::FirstHit)));
+                                          testing::Values(Mode::Standard, Mode::ScaleInvariant, Mode::Mip,
+                                                          Mode::Average, Mode::FirstHit)));
 
 class CpuFunctions : public testing::TestWithParam<std::tuple<const char*, Mode>> {};
 
@@ -123,14 +130,18 @@ TEST_P(CpuFunctions, AreLikeTheReference) {
     const std::string name = function;
     const bool discontinuous = name == "peaks" || name == "jumps";
     expectLikeReference(scene, wholeView(*scene.mesh),
-                        discontinuous ? peaksThreshold : name == "opaque" ? opaqueThreshold : smoothThreshold);
+                        discontinuous      ? peaksThreshold
+                        : name == "opaque" ? opaqueThreshold
+                                           : smoothThreshold);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CpuFunctions,
                          testing::Combine(testing::Values("peaks", "opaque", "constant", "jumps"),
                                           testing::Values(Mode::Standard, Mode::ScaleInvariant)));
 
-double ramp(const glm::dvec3& p) { return 0.5 * p.x + 0.3 * p.y + 0.2 * p.z; }
+double ramp(const glm::dvec3& p) {
+    return 0.5 * p.x + 0.3 * p.y + 0.2 * p.z;
+}
 
 TEST(CpuEngine, ConstantExtinctionIsBeerLambert) {
     const double extinction = 1.5;
@@ -143,7 +154,8 @@ TEST(CpuEngine, ConstantExtinctionIsBeerLambert) {
         const Image image = cpuImage(scene, camera, skips);
         for (int y = 0; y < camera.height; ++y)
             for (int x = 0; x < camera.width; ++x) {
-                const auto [in, out] = pathInBox(pixelRay(frame, x + sampleShift.x, y + sampleShift.y), glm::dvec3(0), glm::dvec3(1));
+                const auto [in, out] =
+                    pathInBox(pixelRay(frame, x + sampleShift.x, y + sampleShift.y), glm::dvec3(0), glm::dvec3(1));
                 const double opacity = 1 - std::exp(-extinction * std::max(0.0, out - in));
                 ASSERT_NEAR(image.at(x, y).w, opacity, 2e-6) << x << ", " << y;
                 ASSERT_NEAR(image.at(x, y).x, 0.8 * opacity, 2e-6);
@@ -154,8 +166,9 @@ TEST(CpuEngine, ConstantExtinctionIsBeerLambert) {
 TEST(CpuEngine, OneTetrahedronOfOnePixelToWholeImage) {
     Scene scene = sceneOf(unitTetrahedron({0, 1, 0.3, 0.6}), smoothFunction(0, 1, 8));
     for (double distance : {0.4, 2.0, 20.0, 60.0})
-        expectLikeReference(scene, cameraAt(glm::dvec3(0.25) + distance * glm::dvec3(0.5, 0.6, 0.62), glm::dvec3(0.25), 49, 41),
-                            smoothThreshold);
+        expectLikeReference(
+            scene, cameraAt(glm::dvec3(0.25) + distance * glm::dvec3(0.5, 0.6, 0.62), glm::dvec3(0.25), 49, 41),
+            smoothThreshold);
 }
 
 TEST(CpuEngine, EyeInsideTheMesh) {
@@ -185,7 +198,8 @@ TEST(CpuEngine, OrthographicViews) {
         Camera camera = wholeView(*scene.mesh);
         camera.orthographicHeight = 1.2 * scene.mesh->bounds.diagonal();
         expectLikeReference(scene, camera, smoothThreshold);
-        camera.eye = scene.mesh->bounds.centre() + 0.03 * (camera.eye - camera.target);  // what lies behind the eye's plane is not seen
+        camera.eye = scene.mesh->bounds.centre() +
+                     0.03 * (camera.eye - camera.target);  // what lies behind the eye's plane is not seen
         expectLikeReference(scene, camera, smoothThreshold);
     }
 }
@@ -198,7 +212,8 @@ TEST(CpuEngine, CellData) {
     m.association = mesh::Association::Cell;
     m = finished(std::move(m));
     for (Mode mode : {Mode::Standard, Mode::Mip, Mode::FirstHit})
-        expectLikeReference(sceneOf(m, smoothFunction(m.scalarMin, m.scalarMax, 6), mode), cameraAt({2.0, 1.8, 2.4}), {1e-4, 2e-2});
+        expectLikeReference(sceneOf(m, smoothFunction(m.scalarMin, m.scalarMax, 6), mode), cameraAt({2.0, 1.8, 2.4}),
+                            {1e-4, 2e-2});
 }
 
 TEST(CpuEngine, SilhouettesAndLight) {
@@ -206,7 +221,9 @@ TEST(CpuEngine, SilhouettesAndLight) {
         for (int what = 1; what < 4; ++what) {
             Scene scene = fieldScene("bucky", what == 3 ? "peaks" : "smooth", mode);
             scene.settings.shading.silhouette = (what & 1) != 0;
-            if (what & 2) scene.settings.shading.lights = {{glm::normalize(glm::dvec3(0.4, 0.8, 0.6))}, {glm::normalize(glm::dvec3(-1, 0.2, 0.1))}};
+            if (what & 2)
+                scene.settings.shading.lights = {{glm::normalize(glm::dvec3(0.4, 0.8, 0.6))},
+                                                 {glm::normalize(glm::dvec3(-1, 0.2, 0.1))}};
             // at edges of cells normals jump, and with them the light, so a shifted sample may see the other cell
             expectLikeReference(scene, wholeView(*scene.mesh), {2e-3, 0.6});
         }
@@ -214,8 +231,9 @@ TEST(CpuEngine, SilhouettesAndLight) {
 
 TEST(CpuEngine, RandomMeshesNeedNoCertificate) {
     for (unsigned seed = 1; seed <= 4; ++seed) {
-        const auto holed = carved(jitteredBoxMesh(7, 0.25, seed, ramp),
-                                  [](const glm::dvec3& p) { return std::abs(p.x - 0.5) > 0.2 || std::abs(p.y - 0.4) > 0.25; });
+        const auto holed = carved(jitteredBoxMesh(7, 0.25, seed, ramp), [](const glm::dvec3& p) {
+            return std::abs(p.x - 0.5) > 0.2 || std::abs(p.y - 0.4) > 0.25;
+        });
         const Scene scene = sceneOf(holed, smoothFunction(0, 1, 8));
         const Camera camera = cameraAt({2.3, 1.2 - 0.5 * seed, 1.9});
         RayCastCounts counts;
@@ -242,7 +260,8 @@ TEST(CpuEngine, UnitsDoNotMatter) {
             there.eye = moved(camera.eye);
             there.target = moved(camera.target);
             // scalars of 1e9 keep 1e-4 of a range of 1e-3; positions of 1e6 keep 1e-10
-            EXPECT_LE(compareImages(cpuImage(sceneOf(std::move(m), function), there), expected).rmse, 1e-4) << scale << " " << shift;
+            EXPECT_LE(compareImages(cpuImage(sceneOf(std::move(m), function), there), expected).rmse, 1e-4)
+                << scale << " " << shift;
         }
 }
 
@@ -251,7 +270,8 @@ TEST(CpuEngine, DepthsFromNothingToEverything) {
         Scene scene = sceneOf(boxMesh(4, ramp), smoothFunction(0, 1, extinction));
         const Camera camera = cameraAt({2.1, 1.7, 2.6});
         RayCastCounts counts;
-        const ImageDifference difference = compareImages(cpuImage(scene, camera), ReferenceRayCaster(scene).render(camera, counts));
+        const ImageDifference difference =
+            compareImages(cpuImage(scene, camera), ReferenceRayCaster(scene).render(camera, counts));
         EXPECT_LE(difference.rmse, 5e-5) << extinction;
         EXPECT_LE(difference.max, std::min(2e-3, extinction)) << extinction;
     }
@@ -270,7 +290,8 @@ TEST(CpuEngine, SkippingInvisibleCellsChangesNothing) {
         const Image skipped = cpuImage(scene, camera, with), full = cpuImage(scene, camera, without, all);
         EXPECT_GT(with.cellsSkipped["invisible by transfer function"], scene.mesh->cells.size() / 4);
         EXPECT_EQ(without.cellsSkipped.count("invisible by transfer function"), 0u);
-        // With isosurfaces a cell takes the scalar at its face from the cell before, if that was drawn: the last bit may change.
+        // With isosurfaces a cell takes the scalar at its face from the cell before, if that was drawn: the last bit
+        // may change.
         EXPECT_LE(compareImages(skipped, full).max, isosurface ? 1.2e-7 : 0.0);
     }
 }

@@ -22,7 +22,8 @@ TEST(CpuPiece, WeightsOfShortPieces) {
             const double depth = i / 200.0, half = std::min(depth, 0.5) * j / 50.0;
             const auto exact = preint::linearPieceWeights(depth - half, depth + half);
             EXPECT_NEAR(glsl::pieceOpacity(depth), exact.frontWeight + exact.backWeight, 3e-7 * depth * depth + 1e-15);
-            EXPECT_NEAR(glsl::pieceSkew(depth, half), exact.backWeight - exact.frontWeight, 1.4e-5) << depth << " " << half;
+            EXPECT_NEAR(glsl::pieceSkew(depth, half), exact.backWeight - exact.frontWeight, 1.4e-5)
+                << depth << " " << half;
         }
 }
 
@@ -62,7 +63,8 @@ TEST(CpuTransfer, PiecesFollowTheFunction) {
         const double x = s - piece.middle;
         ASSERT_NEAR(piece.extinction + piece.extinctionSlope * x, function.extinctionAt(s), 1e-5) << s;
         if (!piece.visible) continue;
-        for (int c = 0; c < 3; ++c) ASSERT_NEAR(piece.color[c] + piece.colorSlope[c] * x, function.colorAt(s)[c], 1e-5) << s;
+        for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(piece.color[c] + piece.colorSlope[c] * x, function.colorAt(s)[c], 1e-5) << s;
     }
     ASSERT_EQ(transfer.peaks().size(), 1u);
     EXPECT_FALSE(transfer.constantColor());

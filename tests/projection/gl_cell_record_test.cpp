@@ -46,7 +46,8 @@ void main() {
 
 // The record's fields as the shader names them, in the order of the struct.
 std::array<float, 24> echoed(const GlFunctions& gl, const CellRecord& record) {
-    const std::string source = "#version 430 core\n" + std::string(glShaderText("projection/gl_cell_record.glsl")) + echoMain;
+    const std::string source =
+        "#version 430 core\n" + std::string(glShaderText("projection/gl_cell_record.glsl")) + echoMain;
     const char* text = source.c_str();
     const GLuint program = gl.CreateShaderProgramv(GL_COMPUTE_SHADER, 1, &text);
     GLint linked = GL_FALSE;
@@ -90,7 +91,7 @@ TEST(GlCellRecord, GlslReadsTheFieldsThatCppWrites) {
     const auto context = makeGlContext("auto");
     const CurrentGlContext current(*context);
     const auto gl = loadGlFunctions(*context);
-    const std::array<float, 24> expected{100, 101, 102, 103, 104, 105,   106,    107, 108, 109, 110, 111,
+    const std::array<float, 24> expected{100, 101, 102, 103,   104,    105, 106, 107, 108, 109, 110, 111,
                                          13,  201, 202, 0.25f, 0.375f, 301, 302, 303, 304, 305, 306, 401};
     EXPECT_EQ(echoed(*gl, record), expected);
 }

@@ -30,8 +30,8 @@ struct Threshold {
     double rmse, max;
 };
 
-// What a table of the default error (1e-4 per segment, far less on average) and float leave. Seen on llvmpipe: rmse below
-// 1e-5, max below 2e-4.
+// What a table of the default error (1e-4 per segment, far less on average) and float leave. Seen on llvmpipe: rmse
+// below 1e-5, max below 2e-4.
 constexpr Threshold smoothThreshold{3e-5, 6e-4};
 
 void expectLikeReference(const Scene& scene, const Camera& camera, Threshold threshold) {
@@ -75,22 +75,25 @@ TEST_P(GlFieldModes, LikeReference) {
 }
 
 std::string modeName(Mode mode) {
-    const std::map<Mode, std::string> names{{Mode::Standard, "Standard"}, {Mode::ScaleInvariant, "ScaleInvariant"},
-                                            {Mode::Mip, "Mip"}, {Mode::Average, "Average"}, {Mode::FirstHit, "FirstHit"}};
+    const std::map<Mode, std::string> names{{Mode::Standard, "Standard"},
+                                            {Mode::ScaleInvariant, "ScaleInvariant"},
+                                            {Mode::Mip, "Mip"},
+                                            {Mode::Average, "Average"},
+                                            {Mode::FirstHit, "FirstHit"}};
     return names.at(mode);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, GlFieldModes,
-    testing::Combine(testing::Values("bucky:12", "coulomb:10", "marschner-lobb:12", "hydrogen:11"),
-                     testing::Values(Mode::Standard, Mode::ScaleInvariant, Mode::Mip, Mode::Average, Mode::FirstHit)),
-    [](const auto& suite) {
-        std::string name = std::get<0>(suite.param) + "_" + modeName(std::get<1>(suite.param));
-        for (char& c : name) {
-            if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-        }
-        return name;
-    });
+INSTANTIATE_TEST_SUITE_P(All, GlFieldModes,
+                         testing::Combine(testing::Values("bucky:12", "coulomb:10", "marschner-lobb:12", "hydrogen:11"),
+                                          testing::Values(Mode::Standard, Mode::ScaleInvariant, Mode::Mip,
+                                                          Mode::Average, Mode::FirstHit)),
+                         [](const auto& suite) {
+                             std::string name = std::get<0>(suite.param) + "_" + modeName(std::get<1>(suite.param));
+                             for (char& c : name) {
+                                 if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+                             }
+                             return name;
+                         });
 
 class GlIntegrals : public testing::TestWithParam<Mode> {};
 
@@ -149,8 +152,8 @@ TEST_P(GlIntegrals, SilhouettesAndLights) {
     Scene scene = fieldScene("hydrogen:11", GetParam());
     const Camera camera = fieldCamera(scene);
     scene.settings.shading.silhouette = true;
-    // k = |g|/|g·d| of the standard integral has a pole where the ray runs along an isosurface: what float and the shifted sample
-    // make of g·d shows there.
+    // k = |g|/|g·d| of the standard integral has a pole where the ray runs along an isosurface: what float and the
+    // shifted sample make of g·d shows there.
     expectLikeReference(scene, camera, GetParam() == Mode::Standard ? Threshold{2e-4, 2e-2} : smoothThreshold);
     scene.settings.shading.lights = {{glm::dvec3(0, 0, 1)}, {glm::dvec3(0.6, 0.8, 0)}};
     scene.settings.shading.exponent = 8;
@@ -197,8 +200,7 @@ TEST(GlEngine, OneTetrahedronFollowsBeersLaw) {
                 (rate > 0 ? in : out) = rate > 0 ? std::max(in, -value / rate) : std::min(out, -value / rate);
             };
             for (int axis = 0; axis < 3; ++axis) clip(ray.origin[axis], ray.direction[axis]);
-            clip(1 - ray.origin.x - ray.origin.y - ray.origin.z,
-                 -ray.direction.x - ray.direction.y - ray.direction.z);
+            clip(1 - ray.origin.x - ray.origin.y - ray.origin.z, -ray.direction.x - ray.direction.y - ray.direction.z);
             const double alpha = -std::expm1(-extinction * std::max(0.0, out - in));
             hit += out > in;
             // the sample stands 6e-5 pixels beside the centre (sampleShift)

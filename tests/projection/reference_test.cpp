@@ -2,8 +2,8 @@
 // The yardstick itself against closed forms and against a march through the mesh that shares nothing with it.
 #include <cmath>
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <projection/reference_ray_caster.h>
 #include <tests/support/analytic_scenes.h>
@@ -97,7 +97,8 @@ TEST(Reference, SilhouettesOfALinearFieldDoNotDependOnTheAngle) {
 
 TEST(Reference, LightOnALinearFieldIsThatOfOneSurface) {
     // one cell thick in the sense of light: thin extinction, so α ≈ depth and every cell gets the same light
-    Scene scene = sceneOf(boxMesh(2, [](const glm::dvec3& p) { return p.z; }), constantFunction(1e-4, {0.5, 0.25, 1.0}));
+    Scene scene =
+        sceneOf(boxMesh(2, [](const glm::dvec3& p) { return p.z; }), constantFunction(1e-4, {0.5, 0.25, 1.0}));
     scene.settings.shading.lights = {{glm::normalize(glm::dvec3(0, 1, 1))}};
     scene.settings.shading.ambient = 0.2;
     scene.settings.shading.exponent = 8;
@@ -135,7 +136,7 @@ TEST(Reference, OrderFreeModesHaveTheirClosedForms) {
             EXPECT_NEAR(mip.at(x, y).x, std::max(xIn, xOut), 1e-6);
             EXPECT_NEAR(average.at(x, y).x, 0.5 * (xIn + xOut), 1e-6);
             EXPECT_EQ(first.at(x, y).w, 1.0f);
-            EXPECT_LT(first.at(x, y).x, xIn + 1e-6);      // the scalar falls along the ray,
+            EXPECT_LT(first.at(x, y).x, xIn + 1e-6);       // the scalar falls along the ray,
             EXPECT_GT(first.at(x, y).x, xIn - 0.5 / 3.0);  // and the first cell is a third of the box
         }
     EXPECT_GT(hits, 100);
@@ -145,7 +146,8 @@ TEST(Reference, OrderFreeModesHaveTheirClosedForms) {
 double locate(const mesh::ScalarMesh& m, const glm::dvec3& p) {
     for (mesh::CellIndex c = 0; c < m.cells.size(); ++c) {
         const auto& q = m.cells[c];
-        const double whole = mesh::sixVolumes(m.positions[q[0]], m.positions[q[1]], m.positions[q[2]], m.positions[q[3]]);
+        const double whole =
+            mesh::sixVolumes(m.positions[q[0]], m.positions[q[1]], m.positions[q[2]], m.positions[q[3]]);
         double scalar = 0, least = 1;
         for (int k = 0; k < 4; ++k) {
             std::array<glm::dvec3, 4> v;
@@ -208,7 +210,8 @@ TEST(Reference, EveryRayCrossesEveryPeakOnce) {
     // s = distance along the view: a peak of opacity 0.4 in the middle covers the box whatever the mesh
     preint::TransferFunction peak = constantFunction(0);
     peak.isosurfaces = {{0.5, 0.4, {1, 0.5, 0}}};
-    const Scene scene = sceneOf(boxMesh(5, [](const glm::dvec3& p) { return p.z; }), peak);  // 0.5 is a plane of vertices
+    const Scene scene =
+        sceneOf(boxMesh(5, [](const glm::dvec3& p) { return p.z; }), peak);  // 0.5 is a plane of vertices
     const Camera camera = cameraAt({0.5, 0.5, 3}, glm::dvec3(0.5), 33, 33);
     const Image image = render(scene, camera);
     for (int y = 10; y < 23; ++y)

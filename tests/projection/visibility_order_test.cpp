@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <glm/geometric.hpp>
 
 #include <projection/boundary_reentry.h>
 #include <projection/cell_setup.h>
@@ -20,7 +20,9 @@ namespace {
 
 using namespace tetralux::test;
 
-double plain(const glm::dvec3& p) { return p.x; }
+double plain(const glm::dvec3& p) {
+    return p.x;
+}
 
 struct OrderCheck {
     int pairs = 0, wrong = 0;
@@ -162,8 +164,10 @@ TEST(BoundaryIsConvex, TellsBoxesFromCarvedBoxes) {
     const mesh::ScalarMesh box = jitteredBoxMesh(5, 0.2, 1, plain);
     EXPECT_TRUE(convex(box));
     EXPECT_FALSE(convex(carved(box, [](const glm::dvec3& p) { return p.x < 0.6 || p.y < 0.6; }))) << "corner cut out";
-    EXPECT_FALSE(convex(carved(box, [](const glm::dvec3& p) { return glm::distance(p, glm::dvec3(0.5)) > 0.2; }))) << "cavity";
-    EXPECT_FALSE(convex(carved(boxMesh(6, plain), [](const glm::dvec3& p) { return std::abs(p.x - 0.5) > 0.1; }))) << "two boxes";
+    EXPECT_FALSE(convex(carved(box, [](const glm::dvec3& p) { return glm::distance(p, glm::dvec3(0.5)) > 0.2; })))
+        << "cavity";
+    EXPECT_FALSE(convex(carved(boxMesh(6, plain), [](const glm::dvec3& p) { return std::abs(p.x - 0.5) > 0.1; })))
+        << "two boxes";
 }
 
 TEST(PowerOrder, SettlesTheCosphericalCellsOfAGrid) {

@@ -16,7 +16,9 @@ using namespace tetralux::test;
 // as in stress_numerics_test; pixels at an outline may differ by what one thin cell holds
 constexpr Threshold ordinary{1e-4, 5e-3};
 
-double plain(const glm::dvec3& p) { return 0.5 * (p.x + p.y); }
+double plain(const glm::dvec3& p) {
+    return 0.5 * (p.x + p.y);
+}
 
 TEST(StressMeshes, JitterUpToInversion) {
     for (double share : {0.3, 0.45, 0.6}) {
@@ -29,7 +31,8 @@ TEST(StressMeshes, JitterUpToInversion) {
             }
         const Scene scene = sceneOf(m, smoothFunction(0, 1, 8));
         const Camera camera = cameraAt({1.9, 1.4, 2.3});
-        holdEnginesTo(referenceImage(scene, camera), scene, camera, ordinary, fmt::format("jitter {} ({} turned over)", share, inverted));
+        holdEnginesTo(referenceImage(scene, camera), scene, camera, ordinary,
+                      fmt::format("jitter {} ({} turned over)", share, inverted));
     }
 }
 
@@ -57,7 +60,8 @@ TEST(StressMeshes, ThousandsOfPieces) {
             m.scalars.push_back(place(random));
         }
         mesh::Tetrahedron c{first, first + 1, first + 2, first + 3};
-        const double volume = mesh::sixVolumes(m.positions[c[0]], m.positions[c[1]], m.positions[c[2]], m.positions[c[3]]);
+        const double volume =
+            mesh::sixVolumes(m.positions[c[0]], m.positions[c[1]], m.positions[c[2]], m.positions[c[3]]);
         if (volume < 0) std::swap(c[2], c[3]);
         if (volume != 0) m.cells.push_back(c);
     }
@@ -85,10 +89,13 @@ TEST(StressMeshes, FlatAndNeedleCells) {
 
 TEST(StressMeshes, OneCellAroundTheEyeAndOneFarAway) {
     mesh::ScalarMesh m = unitTetrahedron({0, 0.3, 0.6, 1});
-    for (const auto& p : {glm::dvec3(0, 0, -1000), glm::dvec3(300, 0, -1000), glm::dvec3(0, 300, -1000), glm::dvec3(0, 0, -1300)}) m.positions.push_back(p);
+    for (const auto& p :
+         {glm::dvec3(0, 0, -1000), glm::dvec3(300, 0, -1000), glm::dvec3(0, 300, -1000), glm::dvec3(0, 0, -1300)})
+        m.positions.push_back(p);
     m.scalars.insert(m.scalars.end(), {1.0, 0.0, 0.5, 0.2});
     m.cells.push_back({4, 5, 6, 7});
-    if (mesh::sixVolumes(m.positions[4], m.positions[5], m.positions[6], m.positions[7]) < 0) std::swap(m.cells[1][2], m.cells[1][3]);
+    if (mesh::sixVolumes(m.positions[4], m.positions[5], m.positions[6], m.positions[7]) < 0)
+        std::swap(m.cells[1][2], m.cells[1][3]);
     m = finished(std::move(m));
     const Scene scene = sceneOf(m, smoothFunction(0, 1, 0.5));
     Camera camera = cameraAt({0.2, 0.2, 0.2}, {0.25, 0.25, -1});
@@ -112,8 +119,10 @@ Scene randomScene(std::uint32_t seed, Camera& camera) {
         if (!left.cells.empty()) m = std::move(left);
     }
     const Mode mode = random() % 2 == 0 ? Mode::Standard : Mode::ScaleInvariant;
-    camera = cameraAt(glm::dvec3(0.5) + (0.2 + 2.3 * unit(random)) * glm::normalize(glm::dvec3(unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5)),
-                      glm::dvec3(0.3) + 0.4 * glm::dvec3(unit(random), unit(random), unit(random)), 20, 16);
+    camera = cameraAt(
+        glm::dvec3(0.5) + (0.2 + 2.3 * unit(random)) *
+                              glm::normalize(glm::dvec3(unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5)),
+        glm::dvec3(0.3) + 0.4 * glm::dvec3(unit(random), unit(random), unit(random)), 20, 16);
     camera.fovDegrees = 20 + 80 * unit(random);
     if (random() % 4 == 0) camera.orthographicHeight = 0.5 + 1.5 * unit(random);
     return sceneOf(m, smoothFunction(0, 1, std::pow(10.0, 2 * unit(random) - 0.5)), mode);

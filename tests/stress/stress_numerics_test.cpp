@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers at the edge of what float and double hold. In each case the answer is known: the same scene in benign units, or a
-// closed form.
+// Numbers at the edge of what float and double hold. In each case the answer is known: the same scene in benign units,
+// or a closed form.
 #include <numbers>
 
 #include <fmt/format.h>
@@ -13,11 +13,13 @@ namespace {
 
 using namespace tetralux::test;
 
-// The fast engines sample 1e-4 pixel beside the centre and hold lengths and scalars in float: 1e-5 of the contrast inside, more in the few
-// pixels that an outline crosses. Tables are built for 1e-4.
+// The fast engines sample 1e-4 pixel beside the centre and hold lengths and scalars in float: 1e-5 of the contrast
+// inside, more in the few pixels that an outline crosses. Tables are built for 1e-4.
 constexpr Threshold benign{1e-4, 3e-3};
 
-double wave(const glm::dvec3& p) { return 0.5 + 0.5 * std::sin(4 * p.x + 2 * p.y) * std::cos(3 * p.z); }
+double wave(const glm::dvec3& p) {
+    return 0.5 + 0.5 * std::sin(4 * p.x + 2 * p.y) * std::cos(3 * p.z);
+}
 
 const glm::dvec3 eye{1.9, 1.4, 2.3};
 
@@ -35,7 +37,8 @@ TEST_P(MeshUnits, DoNotChangeThePicture) {
     mesh::ScalarMesh moved = base;
     for (auto& p : moved.positions) p = scale * (p + offset);
     moved = finished(std::move(moved));
-    const Camera camera = cameraAt(eye), movedCamera = cameraAt(scale * (eye + offset), scale * (glm::dvec3(0.5) + offset));
+    const Camera camera = cameraAt(eye),
+                 movedCamera = cameraAt(scale * (eye + offset), scale * (glm::dvec3(0.5) + offset));
     for (Mode mode : {Mode::Standard, Mode::ScaleInvariant}) {
         preint::TransferFunction f = smoothFunction(0, 1, 10), scaled = f;
         if (mode == Mode::Standard)
@@ -74,7 +77,8 @@ TEST(StressScalars, MagnitudeAndOffsetDoNotChangeThePicture) {
                 if (mode == Mode::ScaleInvariant) node.extinction /= scale;
             }
             holdEnginesTo(referenceImage(sceneOf(base, f, mode), camera), sceneOf(m, moved, mode), camera, benign,
-                          fmt::format("scalars x {:g} + {:g} {}", scale, offset, mode == Mode::Standard ? "standard" : "scale-invariant"));
+                          fmt::format("scalars x {:g} + {:g} {}", scale, offset,
+                                      mode == Mode::Standard ? "standard" : "scale-invariant"));
         }
 }
 
@@ -91,8 +95,10 @@ TEST(StressScalars, AConstantFieldHasItsClosedForm) {
                     const double alpha = out > in ? -std::expm1(-extinction * (out - in)) : 0.0;
                     expected.at(x, y) = glm::vec4(glm::dvec4(scene.transferFunction.color[0].color * alpha, alpha));
                 }
-            // at 1e12 even a path of 1e-12 shows: a pixel whose centre an outline touches may go either way, but none lies there here
-            holdEnginesTo(expected, scene, camera, benign, fmt::format("constant field {:g}, extinction {:g}", value, extinction));
+            // at 1e12 even a path of 1e-12 shows: a pixel whose centre an outline touches may go either way, but none
+            // lies there here
+            holdEnginesTo(expected, scene, camera, benign,
+                          fmt::format("constant field {:g}, extinction {:g}", value, extinction));
         }
 }
 
@@ -186,7 +192,8 @@ TEST(StressShading, GrazingRaysKeepSilhouettesFinite) {
         Scene scene = sceneOf(boxMesh(5, [](const glm::dvec3& p) { return p.y; }), f, mode);
         scene.settings.shading.silhouette = true;
         scene.settings.shading.lights = {{{0, 0, 1}}};
-        const Camera camera = cameraAt({0.5, 0.5, 3}, glm::dvec3(0.5), 33, 33);  // the middle row runs along the isosurface
+        const Camera camera =
+            cameraAt({0.5, 0.5, 3}, glm::dvec3(0.5), 33, 33);  // the middle row runs along the isosurface
         // k has a pole at grazing rays: 1e-4 pixel beside it the opacity of a peak is another one
         holdEnginesTo(referenceImage(scene, camera), scene, camera, {3e-2, 1.0}, "grazing rays");
     }

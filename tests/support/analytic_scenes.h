@@ -88,10 +88,16 @@ inline preint::TransferFunction constantFunction(double extinction, const glm::d
 inline preint::TransferFunction smoothFunction(double low, double high, double strongest = 25.0) {
     auto at = [&](double t) { return low + t * (high - low); };
     preint::TransferFunction f;
-    f.color = {{at(0.0), {0.1, 0.1, 0.6}}, {at(0.25), {0.1, 0.7, 0.7}}, {at(0.5), {0.2, 0.8, 0.2}},
-               {at(0.75), {0.9, 0.8, 0.1}}, {at(1.0), {0.9, 0.1, 0.1}}};
-    f.extinction = {{at(0.0), 0.0}, {at(0.25), 0.08 * strongest}, {at(0.5), 0.2 * strongest},
-                    {at(0.75), 0.5 * strongest}, {at(1.0), strongest}};
+    f.color = {{at(0.0), {0.1, 0.1, 0.6}},
+               {at(0.25), {0.1, 0.7, 0.7}},
+               {at(0.5), {0.2, 0.8, 0.2}},
+               {at(0.75), {0.9, 0.8, 0.1}},
+               {at(1.0), {0.9, 0.1, 0.1}}};
+    f.extinction = {{at(0.0), 0.0},
+                    {at(0.25), 0.08 * strongest},
+                    {at(0.5), 0.2 * strongest},
+                    {at(0.75), 0.5 * strongest},
+                    {at(1.0), strongest}};
     return f;
 }
 

@@ -110,10 +110,11 @@ projection::Image SceneRenderer::render(double turn) {
     const Stopwatch watch;
     projection::Image image = engine_->render(camera, report);
     report.frameMilliseconds = watch.milliseconds();
-    record_.frames.push_back(std::move(report));
     if (verifiedPixels_ > 0 && !record_.verification)
-        record_.verification =
-            projection::verifyImage(image, scene_, camera, static_cast<std::size_t>(verifiedPixels_), verificationSeed);
+        record_.verification = projection::verifyImage(image, scene_, {camera, report.maps.get()},
+                                                       static_cast<std::size_t>(verifiedPixels_), verificationSeed);
+    report.maps.reset();  // a picture's worth of memory
+    record_.frames.push_back(std::move(report));
     if (background_) projection::putUnder(image, *background_);
     return image;
 }

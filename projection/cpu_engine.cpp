@@ -51,7 +51,9 @@ public:
         arena_.execute([&] { prepare(); });
     }
 
-    Image render(const Camera& camera, FrameReport& report) override {
+    Image render(const View& view, FrameReport& report) override {
+        checkPixelMaps(view);
+        const Camera& camera = view.camera;
         const auto start = Clock::now();
         Image image(camera.width, camera.height);
         arena_.execute([&] {

@@ -12,6 +12,7 @@
 
 #include <projection/camera.h>
 #include <projection/image.h>
+#include <projection/pixel_maps.h>
 #include <projection/scene.h>
 
 namespace tetralux::projection {
@@ -31,12 +32,13 @@ struct FrameReport {
     /// composed exactly afterwards and count them as repaired.
     std::vector<std::uint32_t> doubtfulPixels;
     std::uint64_t pixelsRepaired = 0, pixelsWrong = 0;
+    std::shared_ptr<const PixelMaps> maps;  ///< what the frame was drawn with, where the scene has any
 };
 
 class Engine {
 public:
     virtual ~Engine() = default;
-    virtual Image render(const Camera& camera, FrameReport& report) = 0;
+    virtual Image render(const View& view, FrameReport& report) = 0;
     virtual std::string name() const = 0;      ///< "reference", "gl", …
     virtual std::string renderer() const = 0;  ///< what does the work: GL_RENDERER, or the instruction set
     /// What was made once for all frames: "adjacency", "table", …, in milliseconds.

@@ -10,6 +10,7 @@
 #include <projection/exact_repair.h>
 #include <projection/gl_engine.h>
 #include <projection/reference_engine.h>
+#include <projection/view_maps.h>
 
 namespace tetralux::projection {
 
@@ -38,7 +39,7 @@ std::vector<std::string> engineNames() {
 std::unique_ptr<Engine> makeEngine(const Scene& scene, const EngineOptions& options) {
     const std::string name = options.engine == "auto" ? engines.front().name : options.engine;
     for (const auto& engine : engines)
-        if (name == engine.name) return withExactRepair(engine.make(scene, options), scene);
+        if (name == engine.name) return withViewMaps(withExactRepair(engine.make(scene, options), scene), scene);
     throw std::runtime_error(fmt::format("engine '{}': there is no such engine; take one of auto, {}", options.engine,
                                          fmt::join(engineNames(), ", ")));
 }

@@ -25,12 +25,12 @@ public:
             beyondFloat_ = cellsBeyondFloat(*scene.mesh, scene.transferFunction, integralOf(scene.settings.mode));
     }
 
-    Image render(const Camera& camera, FrameReport& report) override {
-        Image image = engine_->render(camera, report);
-        if (!beyondFloat_.empty()) doubtCellsBeyondFloat(camera, report);
+    Image render(const View& view, FrameReport& report) override {
+        Image image = engine_->render(view, report);
+        if (!beyondFloat_.empty()) doubtCellsBeyondFloat(view.camera, report);
         if (report.doubtfulPixels.empty()) return image;
         const auto start = std::chrono::steady_clock::now();
-        caster_.renderPixels(camera, report.doubtfulPixels, image);
+        caster_.renderPixels(view, report.doubtfulPixels, image);
         const double spent =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         report.stageMilliseconds["repair"] = spent;

@@ -130,7 +130,7 @@ public:
         }
     }
 
-    Image render(const Camera& camera, FrameReport& report) override;
+    Image render(const View& view, FrameReport& report) override;
 
     std::string name() const override { return "gl"; }
     std::string renderer() const override { return state_->renderer; }
@@ -276,10 +276,11 @@ void GlEngine::writeCells(const CellProjector& projector, const CameraFrame& fra
     });
 }
 
-Image GlEngine::render(const Camera& camera, FrameReport& report) {
+Image GlEngine::render(const View& view, FrameReport& report) {
+    checkPixelMaps(view);
     Stopwatch whole, watch;
     auto& stages = report.stageMilliseconds;
-    const CameraFrame frame = cameraFrame(camera);
+    const CameraFrame frame = cameraFrame(view.camera);
     const std::vector<mesh::CellIndex> order = drawingOrder(frame, report);
     stages["sort"] = watch.lap();
 

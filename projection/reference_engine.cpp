@@ -13,10 +13,10 @@ class ReferenceEngine final : public Engine {
 public:
     explicit ReferenceEngine(const Scene& scene) : cellCount_(scene.mesh->cells.size()), caster_(scene) {}
 
-    Image render(const Camera& camera, FrameReport& report) override {
+    Image render(const View& view, FrameReport& report) override {
         const auto start = std::chrono::steady_clock::now();
         RayCastCounts counts;
-        Image image = caster_.render(camera, counts);
+        Image image = caster_.render(view, counts);
         report.frameMilliseconds =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         report.stageMilliseconds["cast"] = report.frameMilliseconds;

@@ -124,20 +124,48 @@ std::optional<RaySegment> cut(const RayFrame& ray, const mesh::ScalarMesh& mesh,
     return segment;
 }
 
+/// The part of a segment between two distances; false when there is none.
+bool limit(RaySegment& segment, double nearest, double farthest) {
+    const double tIn = std::max(segment.tIn, nearest), tOut = std::min(segment.tOut, farthest);
+    if (!(tOut > tIn)) return false;
+    const double from = segment.scalarIn, to = segment.scalarOut, start = segment.tIn;
+    const double length = segment.tOut - segment.tIn;
+    if (tIn > segment.tIn) {
+        segment.scalarIn = glm::mix(from, to, (tIn - start) / length);
+        segment.cutInFront = true;
+    }
+    if (tOut < segment.tOut) segment.scalarOut = glm::mix(from, to, (tOut - start) / length);
+    segment.tIn = tIn;
+    segment.tOut = tOut;
+    return true;
+}
+
+/// The function with extinction and the depth of its isosurfaces multiplied by `scale`.
+preint::TransferFunction scaledExtinction(preint::TransferFunction function, double scale) {
+    for (auto& node : function.extinction) node.extinction *= scale;
+    for (auto& surface : function.isosurfaces)
+        surface.opacity = surface.opacity < 1 ? -std::expm1(scale * std::log1p(-surface.opacity))
+                          : scale > 0         ? 1.0
+                                              : 0.0;
+    return function;
+}
+
 }  // namespace
 
 /// One rendering of one camera: the image is halved until one pixel is left, the cells with it.
 struct ReferenceRayCaster::Pass {
     const ReferenceRayCaster& caster;
     const CameraFrame frame;
+    const PixelMaps* const maps;
     Image& image;
     std::vector<bool> wanted;        // empty: all pixels
     std::vector<glm::dvec3> points;  // camera space: pixels·depth (or pixels when orthographic) twice, and depth
     std::vector<std::atomic<bool>> met;
     std::atomic<std::uint64_t> segmentCount{0}, overlapCount{0};
 
-    Pass(const ReferenceRayCaster& c, const Camera& camera, Image& target)
-        : caster(c), frame(cameraFrame(camera)), image(target), met(c.scene_.mesh->cells.size()) {
+    Pass(const ReferenceRayCaster& c, const View& view, Image& target)
+        : caster(c), frame(cameraFrame(view.camera)), maps(view.maps), image(target), met(c.scene_.mesh->cells.size()) {
+        checkPixelMaps(view);
         const mesh::ScalarMesh& mesh = *caster.scene_.mesh;
         const double pixel = glm::length(frame.perPixelRight);
         points.resize(mesh.positions.size());
@@ -224,7 +252,9 @@ struct ReferenceRayCaster::Pass {
                 segments.push_back(*segment);
                 met[cell].store(true, std::memory_order_relaxed);
             }
-        image.at(x, y) = glm::vec4(caster.composite(ray, segments));
+        const PixelLimits limits = limitsAt(
+            maps, static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x));
+        image.at(x, y) = glm::vec4(caster.colorOf(ray, limits, segments));
         segmentCount += segments.size();
         for (std::size_t i = 1; i < segments.size(); ++i)
             if (segments[i].tIn < segments[i - 1].tOut - 1e-9 * (segments[i - 1].tOut - segments[i - 1].tIn) -
@@ -235,9 +265,9 @@ struct ReferenceRayCaster::Pass {
 
 ReferenceRayCaster::ReferenceRayCaster(const Scene& scene) : scene_(scene), exact_(scene.transferFunction) {}
 
-Image ReferenceRayCaster::render(const Camera& camera, RayCastCounts& counts) const {
-    Image image(camera.width, camera.height);
-    Pass pass(*this, camera, image);
+Image ReferenceRayCaster::render(const View& view, RayCastCounts& counts) const {
+    Image image(view.camera.width, view.camera.height);
+    Pass pass(*this, view, image);
     pass.renderAll();
     counts.segments = pass.segmentCount;
     counts.overlaps = pass.overlapCount;
@@ -246,10 +276,9 @@ Image ReferenceRayCaster::render(const Camera& camera, RayCastCounts& counts) co
     return image;
 }
 
-void ReferenceRayCaster::renderPixels(const Camera& camera, const std::vector<std::uint32_t>& pixels,
-                                      Image& image) const {
+void ReferenceRayCaster::renderPixels(const View& view, const std::vector<std::uint32_t>& pixels, Image& image) const {
     if (pixels.empty()) return;
-    Pass pass(*this, camera, image);
+    Pass pass(*this, view, image);
     pass.wanted.resize(image.pixels.size());
     for (std::uint32_t pixel : pixels) {
         pass.wanted[pixel] = true;
@@ -287,7 +316,8 @@ struct Shaded {
     double opacity;
 };
 
-Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& ray, const RaySegment& segment) {
+Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& ray, const RaySegment& segment,
+             const glm::dvec3& cutNormal) {
     const auto& shading = scene.settings.shading;
     const preint::Integral integral = integralOf(scene.settings.mode);
     const double length = segment.tOut - segment.tIn;
@@ -319,11 +349,12 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
     if (!shading.lit()) return {meanColor * opacity, opacity};
 
     glm::dvec3 light = shading.ambient * meanColor;
-    if (magnitude > 0) {
+    const bool cut = segment.cutInFront && cutNormal != glm::dvec3(0);
+    if (magnitude > 0 || cut) {
         const double scalarStep = segment.scalarIn - segment.scalarOut;
-        const double side = scalarStep > 0 ? 1.0 : scalarStep < 0 ? -1.0 : 0.0;
+        const double side = cut ? 1.0 : scalarStep > 0 ? 1.0 : scalarStep < 0 ? -1.0 : 0.0;
         for (const auto& source : shading.lights)
-            light += glsl::lightTerm(meanColor, normal, -ray.direction, source.towards, side,
+            light += glsl::lightTerm(meanColor, cut ? cutNormal : normal, -ray.direction, source.towards, side,
                                      shading.transmission ? 1.0 - opacity : 0.0, shading.exponent);
     }
     return {light * opacity, opacity};
@@ -331,18 +362,38 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
 
 }  // namespace
 
-glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, std::vector<RaySegment>& segments) const {
+ReferenceRayCaster::PixelLimits ReferenceRayCaster::limitsAt(const PixelMaps* maps, std::size_t pixel) {
+    PixelLimits limits;
+    if (maps == nullptr) return limits;
+    if (!maps->nearest.empty()) limits.nearest = maps->nearest[pixel];
+    if (!maps->farthest.empty()) limits.farthest = maps->farthest[pixel];
+    if (!maps->nearestNormal.empty()) limits.cutNormal = maps->nearestNormal[pixel];
+    if (!maps->extinctionScale.empty()) limits.extinctionScale = static_cast<double>(maps->extinctionScale[pixel]);
+    return limits;
+}
+
+glm::dvec4 ReferenceRayCaster::colorOf(const Ray& ray, const PixelLimits& limits,
+                                       std::vector<RaySegment>& segments) const {
+    if (limits.nearest > 0 || limits.farthest < HUGE_VAL)
+        std::erase_if(segments, [&](RaySegment& s) { return !limit(s, limits.nearest, limits.farthest); });
+    if (limits.extinctionScale == 1.0) return composite(ray, exact_, limits.cutNormal, segments);
+    const preint::ExactIntegral scaled(scaledExtinction(scene_.transferFunction, limits.extinctionScale));
+    return composite(ray, scaled, limits.cutNormal, segments);
+}
+
+glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, const preint::ExactIntegral& exact,
+                                         const glm::dvec3& cutNormal, std::vector<RaySegment>& segments) const {
     if (segments.empty()) return glm::dvec4(0);
     std::sort(segments.begin(), segments.end(), [](const RaySegment& a, const RaySegment& b) {
         return a.tIn != b.tIn ? a.tIn < b.tIn : a.tOut < b.tOut;
     });
-    const preint::TransferFunction& function = exact_.function();
+    const preint::TransferFunction& function = exact.function();
     switch (scene_.settings.mode) {
         case Mode::Standard:
         case Mode::ScaleInvariant: {
             Gathered gathered;
             for (const RaySegment& segment : segments) {
-                const Shaded shaded = shade(exact_, scene_, ray, segment);
+                const Shaded shaded = shade(exact, scene_, ray, segment, cutNormal);
                 gathered.add(shaded.color, shaded.opacity);
             }
             return gathered.pixel();
@@ -364,7 +415,7 @@ glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, std::vector<RaySegment>
         }
         case Mode::FirstHit:
             for (const RaySegment& segment : segments) {
-                const Shaded shaded = shade(exact_, scene_, ray, segment);
+                const Shaded shaded = shade(exact, scene_, ray, segment, cutNormal);
                 if (shaded.opacity > 0) return {shaded.color / shaded.opacity, 1.0};
             }
             return glm::dvec4(0);

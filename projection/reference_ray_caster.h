@@ -5,6 +5,7 @@
 /// planes.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include <preint/exact_integral.h>
 #include <projection/camera.h>
 #include <projection/image.h>
+#include <projection/pixel_maps.h>
 #include <projection/scene.h>
 
 namespace tetralux::projection {
@@ -22,6 +24,7 @@ struct RaySegment {
     double tIn, tOut;
     double scalarIn, scalarOut;
     mesh::CellIndex cell;
+    bool cutInFront = false;  ///< begins where a pixel map lets the volume begin
 };
 
 struct RayCastCounts {
@@ -35,11 +38,11 @@ class ReferenceRayCaster {
 public:
     explicit ReferenceRayCaster(const Scene& scene);
 
-    /// The whole image.
-    Image render(const Camera& camera, RayCastCounts& counts) const;
+    /// The whole image, within the limits of the view's pixel maps.
+    Image render(const View& view, RayCastCounts& counts) const;
 
     /// Only the pixels named (y·width + x, ascending), written into `image`, which has the camera's size.
-    void renderPixels(const Camera& camera, const std::vector<std::uint32_t>& pixels, Image& image) const;
+    void renderPixels(const View& view, const std::vector<std::uint32_t>& pixels, Image& image) const;
 
     /// The segments of the ray through pixel coordinates (x, y), whole at pixel centres, sorted by depth: for tests and
     /// inspection. O(cells).
@@ -47,7 +50,16 @@ public:
 
 private:
     struct Pass;
-    glm::dvec4 composite(const Ray& ray, std::vector<RaySegment>& segments) const;
+    /// What the pixel maps say of one pixel.
+    struct PixelLimits {
+        double nearest = 0.0, farthest = HUGE_VAL;
+        glm::dvec3 cutNormal{0};  ///< used for light where a segment begins at `nearest`; 0: none
+        double extinctionScale = 1.0;
+    };
+    static PixelLimits limitsAt(const PixelMaps* maps, std::size_t pixel);
+    glm::dvec4 colorOf(const Ray& ray, const PixelLimits& limits, std::vector<RaySegment>& segments) const;
+    glm::dvec4 composite(const Ray& ray, const preint::ExactIntegral& exact, const glm::dvec3& cutNormal,
+                         std::vector<RaySegment>& segments) const;
 
     Scene scene_;
     preint::ExactIntegral exact_;

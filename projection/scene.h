@@ -9,6 +9,7 @@
 #include <mesh/tet_mesh.h>
 #include <preint/preintegration_table.h>
 #include <preint/transfer_function.h>
+#include <projection/pixel_maps.h>
 #include <shading/lights.h>
 
 namespace tetralux::projection {
@@ -30,6 +31,8 @@ struct Scene {
     std::shared_ptr<const mesh::ScalarMesh> mesh;
     preint::TransferFunction transferFunction;  ///< absolute (preint::resolved)
     RenderSettings settings;
+    /// Clip planes, slices, opaque surfaces: asked in turn for every frame.
+    std::vector<std::shared_ptr<const PixelMapSource>> mapSources = {};
 };
 
 }  // namespace tetralux::projection

@@ -27,15 +27,17 @@ std::vector<std::uint32_t> chosenPixels(std::size_t pixelCount, std::size_t samp
 
 }  // namespace
 
-Verification verifyImage(const Image& image, const Scene& scene, const Camera& camera, std::size_t samples,
+Verification verifyImage(const Image& image, const Scene& scene, const View& view, std::size_t samples,
                          std::uint32_t seed) {
+    const Camera& camera = view.camera;
     if (image.width != camera.width || image.height != camera.height)
         throw std::runtime_error(
             fmt::format("verification: the image is {}x{}, the camera's {}x{}; verify the image as it was rendered",
                         image.width, image.height, camera.width, camera.height));
     const std::vector<std::uint32_t> pixels = chosenPixels(image.pixels.size(), samples, seed);
     Image exact(image.width, image.height);
-    ReferenceRayCaster(scene).renderPixels(camera, pixels, exact);
+    ReferenceRayCaster(scene).renderPixels(view, pixels, exact);
+    if (view.maps != nullptr) composeBehind(exact, *view.maps);
 
     Verification result;
     result.pixels = pixels.size();

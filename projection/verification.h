@@ -24,10 +24,10 @@ struct Verification {
     double unseenShare = 0.0;
 };
 
-/// Compares `image`, made of `scene` by `camera` without background, with the reference in `samples` different pixels
-/// chosen at random from `seed`; in all pixels when there are no more than that. \throws std::runtime_error when the
-/// image does not have the camera's size.
-Verification verifyImage(const Image& image, const Scene& scene, const Camera& camera, std::size_t samples,
+/// Compares `image`, made of `scene` in `view` (with the maps it was drawn with) without background, with the reference
+/// in `samples` different pixels chosen at random from `seed`; in all pixels when there are no more than that. \throws
+/// std::runtime_error when the image does not have the camera's size.
+Verification verifyImage(const Image& image, const Scene& scene, const View& view, std::size_t samples,
                          std::uint32_t seed);
 
 }  // namespace tetralux::projection

@@ -219,8 +219,8 @@ TEST(OrderedKey, AscendsFromNearToFar) {
 /// An engine that paints red and doubts some pixels.
 class DoubtingEngine final : public Engine {
 public:
-    Image render(const Camera& camera, FrameReport& report) override {
-        Image image(camera.width, camera.height);
+    Image render(const View& view, FrameReport& report) override {
+        Image image(view.camera.width, view.camera.height);
         for (auto& pixel : image.pixels) pixel = {1, 0, 0, 1};
         report.doubtfulPixels = {3, 900, 901};
         return image;

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/view_maps.h>
+
+#include <chrono>
+#include <utility>
+
+namespace tetralux::projection {
+
+namespace {
+
+class MappedEngine final : public Engine {
+public:
+    MappedEngine(std::unique_ptr<Engine> engine, const Scene& scene)
+        : engine_(std::move(engine)), sources_(scene.mapSources) {}
+
+    Image render(const View& view, FrameReport& report) override {
+        const auto start = std::chrono::steady_clock::now();
+        auto maps = view.maps != nullptr ? std::make_shared<PixelMaps>(*view.maps) : std::make_shared<PixelMaps>();
+        for (const auto& source : sources_) source->apply(view.camera, *maps);
+        report.maps = maps;
+        const double spent =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        Image image = engine_->render({view.camera, maps->changeVolume() ? maps.get() : nullptr}, report);
+        composeBehind(image, *maps);
+        report.stageMilliseconds["maps"] += spent;
+        report.frameMilliseconds += spent;
+        return image;
+    }
+
+    std::string name() const override { return engine_->name(); }
+    std::string renderer() const override { return engine_->renderer(); }
+    std::map<std::string, double> prepareMilliseconds() const override { return engine_->prepareMilliseconds(); }
+    const preint::PreintegrationTable* table() const override { return engine_->table(); }
+
+private:
+    std::unique_ptr<Engine> engine_;
+    std::vector<std::shared_ptr<const PixelMapSource>> sources_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> withViewMaps(std::unique_ptr<Engine> engine, const Scene& scene) {
+    if (scene.mapSources.empty()) return engine;
+    return std::make_unique<MappedEngine>(std::move(engine), scene);
+}
+
+}  // namespace tetralux::projection

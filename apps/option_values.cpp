@@ -13,18 +13,43 @@ namespace tetralux::apps {
 namespace {
 
 using projection::Mode;
+using projection::OrderMethod;
 
 constexpr int largestSide = 16384;  // pixels
 
-struct NamedMode {
-    Mode mode;
+template <class Value>
+struct Named {
+    Value value;
     const char* name;
 };
-constexpr NamedMode modes[] = {{Mode::Standard, "standard"},
-                               {Mode::ScaleInvariant, "scale-invariant"},
-                               {Mode::Mip, "mip"},
-                               {Mode::Average, "average"},
-                               {Mode::FirstHit, "first-hit"}};
+constexpr Named<Mode> modes[] = {{Mode::Standard, "standard"},
+                                 {Mode::ScaleInvariant, "scale-invariant"},
+                                 {Mode::Mip, "mip"},
+                                 {Mode::Average, "average"},
+                                 {Mode::FirstHit, "first-hit"}};
+constexpr Named<OrderMethod> orders[] = {
+    {OrderMethod::Auto, "auto"}, {OrderMethod::Graph, "graph"}, {OrderMethod::Centroid, "centroid"}};
+
+template <class Value, std::size_t n>
+std::string namesOf(const Named<Value> (&all)[n]) {
+    std::string names;
+    for (const auto& named : all) names += fmt::format("{}{}", names.empty() ? "" : ", ", named.name);
+    return names;
+}
+
+template <class Value, std::size_t n>
+std::string nameOf(const Named<Value> (&all)[n], Value value) {
+    for (const auto& named : all)
+        if (value == named.value) return named.name;
+    return "";
+}
+
+template <class Value, std::size_t n>
+Value parseNamed(const Named<Value> (&all)[n], const char* what, const std::string& option, const std::string& text) {
+    for (const auto& named : all)
+        if (text == named.name) return named.value;
+    throw std::runtime_error(fmt::format("{}: there is no {} '{}'; take one of {}", option, what, text, namesOf(all)));
+}
 
 /// The whole of `text` as a number; nothing when anything else stands there.
 template <class Number>
@@ -80,21 +105,23 @@ std::optional<glm::vec3> parseBackground(const std::string& option, const std::s
 }
 
 Mode parseMode(const std::string& option, const std::string& text) {
-    for (const NamedMode& named : modes)
-        if (text == named.name) return named.mode;
-    throw std::runtime_error(fmt::format("{}: there is no mode '{}'; take one of {}", option, text, modeNames()));
+    return parseNamed(modes, "mode", option, text);
 }
-
 std::string modeName(Mode mode) {
-    for (const NamedMode& named : modes)
-        if (mode == named.mode) return named.name;
-    return "";
+    return nameOf(modes, mode);
+}
+std::string modeNames() {
+    return namesOf(modes);
 }
 
-std::string modeNames() {
-    std::string names;
-    for (const NamedMode& named : modes) names += fmt::format("{}{}", names.empty() ? "" : ", ", named.name);
-    return names;
+OrderMethod parseOrder(const std::string& option, const std::string& text) {
+    return parseNamed(orders, "order", option, text);
+}
+std::string orderName(OrderMethod order) {
+    return nameOf(orders, order);
+}
+std::string orderNames() {
+    return namesOf(orders);
 }
 
 }  // namespace tetralux::apps

@@ -76,6 +76,10 @@ void addMachineOptions(CLI::App& command, RenderOptions& options) {
     command.add_option("--engine", options.engine.engine,
                        fmt::format("what draws: auto, {}", fmt::join(projection::engineNames(), ", ")));
     command.add_option("--context", options.engine.context, "OpenGL context: auto, egl, osmesa");
+    addParsed(command, "--order", options.settings.order, parseOrder,
+              "how cells are put in order, for measuring: auto (certain), graph (certain, no keys), centroid (wrong in "
+              "places, which are counted)",
+              "ORDER");
     addNumber<int>(command, "--threads", options.settings.threads, positive, "a whole number from 1",
                    "processor threads; default: all");
     addNumber<double>(command, "--table-error", options.settings.table.wantedError, positive, "a number above 0",

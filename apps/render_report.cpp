@@ -83,10 +83,12 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
     const RenderRecord& record = renderer.record();
     const projection::Engine& engine = renderer.engine();
     const FrameReport first = record.frames.empty() ? FrameReport{} : record.frames.front();
-    std::uint64_t repaired = 0, wrong = 0;
+    std::uint64_t repaired = 0;
+    json wrong = std::uint64_t{0};
     for (const FrameReport& frame : record.frames) {
         repaired += frame.pixelsRepaired;
-        wrong += frame.pixelsWrong;
+        if (frame.wrongUnknown) wrong = nullptr;
+        if (!wrong.is_null()) wrong = wrong.get<std::uint64_t>() + frame.pixelsWrong;
     }
     json report = {
         {"tetralux", TETRALUX_VERSION},

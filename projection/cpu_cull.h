@@ -12,6 +12,7 @@
 #include <glm/vec4.hpp>
 
 #include <projection/cpu_tile.h>
+#include <projection/order_keys.h>
 
 namespace tetralux::projection {
 
@@ -35,8 +36,7 @@ struct KeySource {
     const std::uint32_t* places = nullptr;
 
     double keyOf(mesh::CellIndex cell) const {
-        if (planes)
-            return planes[cell].x * eye.x + planes[cell].y * eye.y + planes[cell].z * eye.z + planes[cell].w * eye.w;
+        if (planes) return orderKey(planes[cell], eye);
         return places ? -static_cast<double>(places[cell]) : 0.0;
     }
 };

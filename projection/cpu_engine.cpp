@@ -157,7 +157,7 @@ void CpuEngine::prepare() {
     prepareMilliseconds_["cells"] = millisecondsSince(start);
     if (!frame_.ordered || !skips_.sort) return;
     const auto orderStart = Clock::now();
-    orderKeys_.emplace(mesh_);
+    orderKeys_.emplace(mesh_, scene_.settings.order);
     prepareMilliseconds_["order"] = millisecondsSince(orderStart);
 }
 

@@ -4,11 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
-
-#include <glm/vec4.hpp>
 
 #include <projection/cpu_cull.h>
 #include <projection/visibility_order.h>
@@ -24,23 +21,17 @@ struct CpuFrameOrder {
     std::vector<std::uint32_t> places;  ///< what `keys` points to, where there is no certificate
 };
 
-/// Keys of cells: by power (power_order.h) where a certificate holds, so that only what survived culling is sorted;
+/// Keys of cells: linear ones (order_keys.h) where the sorter has them, so that only what survived culling is sorted;
 /// else places in the order of the whole mesh.
 class CpuOrder {
 public:
-    explicit CpuOrder(const mesh::ScalarMesh& mesh);
+    CpuOrder(const mesh::ScalarMesh& mesh, OrderMethod method);
 
     CpuFrameOrder orderOf(const CameraFrame& frame) const;
 
 private:
-    void buildPowerPlanes(const std::vector<double>& heights);
-
-    const mesh::ScalarMesh& mesh_;
-    /// The cell's linear function of position (mesh diagonals from the centre of the bounds): gradient and constant.
-    /// Its value at the eye is the key. 32 bytes per cell; to make it anew each frame would take four times the time of
-    /// reading it.
-    std::vector<glm::dvec4> powerPlanes_;
-    std::unique_ptr<VisibilitySorter> sorter_;  ///< where there is no certificate
+    const std::size_t cellCount_;
+    const VisibilitySorter sorter_;
 };
 
 }  // namespace tetralux::projection

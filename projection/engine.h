@@ -31,7 +31,11 @@ struct FrameReport {
     /// Pixels (y·width + x, ascending) that the engine could not order with certainty; makeEngine's engines have them
     /// composed exactly afterwards and count them as repaired.
     std::vector<std::uint32_t> doubtfulPixels;
-    std::uint64_t pixelsRepaired = 0, pixelsWrong = 0;
+    std::uint64_t pixelsRepaired = 0;  ///< composed by the reference
+    /// Doubtful pixels that were not repaired: 0 but for OrderMethod::Centroid. An engine that cannot tell which they
+    /// are (gl, whose only proof is the order) says so by `wrongUnknown`.
+    std::uint64_t pixelsWrong = 0;
+    bool wrongUnknown = false;
     std::shared_ptr<const PixelMaps> maps;  ///< what the frame was drawn with, where the scene has any
 };
 

@@ -111,7 +111,7 @@ public:
             table_ = buildTable(scene, function_, units_);
             findVisibleCells();
             prepare_["table"] = watch.lap();
-            sorter_.emplace(*scene.mesh);
+            sorter_.emplace(*scene.mesh, scene.settings.order);
             prepare_["adjacency"] = watch.lap();
         } else {
             cellShows_.assign(scene.mesh->cells.size(), 1);
@@ -221,6 +221,7 @@ std::vector<mesh::CellIndex> GlEngine::drawingOrder(const CameraFrame& frame, Fr
         return cells;
     }
     VisibilityOrder order = sorter_->sort(frame);
+    report.wrongUnknown = scene_.settings.order == OrderMethod::Centroid;
     report.orderMethod = order.method;
     report.cellsSorted = order.frontToBack.size();
     report.orderCycles = order.cyclicCells;

@@ -19,8 +19,14 @@ enum class Mode { Standard, ScaleInvariant, Mip, Average, FirstHit };
 /// The integral that a mode's segments use (first-hit asks for opacity > 0 by the standard one).
 preint::Integral integralOf(Mode mode);
 
+/// How cells are put in order. Auto takes the cheapest method that is certain for the mesh; the others are for
+/// measuring: Graph does without power keys (power_order.h), Centroid sorts by the distance of centroids, which is
+/// wrong in some pixels: they are counted, not repaired.
+enum class OrderMethod { Auto, Graph, Centroid };
+
 struct RenderSettings {
     Mode mode = Mode::Standard;
+    OrderMethod order = OrderMethod::Auto;
     shading::ShadingSettings shading;
     preint::TableOptions table;
     int threads = 0;  ///< 0: all

@@ -2,32 +2,63 @@
 #include <projection/visibility_order.h>
 
 #include <algorithm>
-#include <atomic>
-#include <queue>
+#include <limits>
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 #include <glm/geometric.hpp>
 
 #include <projection/boundary_reentry.h>
 #include <projection/cell_setup.h>
+#include <projection/power_order.h>
 
 namespace tetralux::projection {
 
 struct VisibilitySorter::State {
     const mesh::ScalarMesh& mesh;
+    std::string method;
+    OrderKeys keys;
+    std::uint64_t failingFaces = 0;
     mesh::Adjacency adjacency;
     std::vector<BoundaryFace> boundary;  // empty when it is convex: nothing to look for
-    bool convex = false;
 
-    explicit State(const mesh::ScalarMesh& m) : mesh(m), adjacency(mesh::buildAdjacency(m.cells, m.positions.size())) {
+    State(const mesh::ScalarMesh& m, OrderMethod wanted, Use use) : mesh(m) {
+        if (wanted == OrderMethod::Centroid) {
+            method = "centroid";
+            keys = OrderKeys::centroid(mesh);
+            return;
+        }
+        adjacency = mesh::buildAdjacency(m.cells, m.positions.size());
         boundary = boundaryFaces(adjacency);
-        convex = adjacency.nonManifoldFaces == 0 && adjacency.foldedFaces == 0 && boundaryIsConvex(mesh, boundary);
-        if (convex) boundary = {};
+        const bool convex =
+            adjacency.nonManifoldFaces == 0 && adjacency.foldedFaces == 0 && boundaryIsConvex(mesh, boundary);
+        method = convex ? "mpvo" : "mpvo+reentry";
+        if (!convex) return;
+        boundary = {};
+        if (wanted == OrderMethod::Graph || use == Use::Whole) return;
+        const PowerOrder power(mesh, adjacency);
+        failingFaces = power.failingFaces();
+        if (failingFaces > 0) return;
+        method = "power";
+        keys = OrderKeys::power(mesh, power.heights());
+        adjacency = {};
     }
 };
 
-VisibilitySorter::VisibilitySorter(const mesh::ScalarMesh& mesh) : state_(std::make_unique<State>(mesh)) {}
+VisibilitySorter::VisibilitySorter(const mesh::ScalarMesh& mesh, OrderMethod method, Use use)
+    : state_(std::make_unique<State>(mesh, method, use)) {}
 VisibilitySorter::~VisibilitySorter() = default;
+
+const std::string& VisibilitySorter::method() const {
+    return state_->method;
+}
+const OrderKeys& VisibilitySorter::keys() const {
+    return state_->keys;
+}
+std::uint64_t VisibilitySorter::failingFaces() const {
+    return state_->failingFaces;
+}
 
 namespace {
 
@@ -91,6 +122,36 @@ private:
     std::vector<std::uint32_t> nearer_;  // how many unordered cells lie directly in front
 };
 
+std::vector<mesh::CellIndex> sortedByKeys(const OrderKeys& keys, const CameraFrame& frame) {
+    const std::vector<glm::dvec4>& planes = keys.planes();
+    const glm::dvec4 eye = keys.eye(frame);
+    using Range = tbb::blocked_range<std::size_t>;
+    struct Extent {
+        double far = std::numeric_limits<double>::infinity(), near = -far;
+    };
+    const Extent extent = tbb::parallel_reduce(
+        Range(0, planes.size(), 8192), Extent{},
+        [&](const Range& range, Extent e) {
+            for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                const double key = orderKey(planes[i], eye);
+                e = {std::min(e.far, key), std::max(e.near, key)};
+            }
+            return e;
+        },
+        [](const Extent& a, const Extent& b) {
+            return Extent{std::min(a.far, b.far), std::max(a.near, b.near)};
+        });
+    std::vector<KeyedCell> cells(planes.size()), scratch;
+    tbb::parallel_for(Range(0, planes.size(), 8192), [&](const Range& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i)
+            cells[i] = {orderedKey(orderKey(planes[i], eye), extent.near, extent.far), static_cast<std::uint32_t>(i)};
+    });
+    radixSort(cells, scratch);
+    std::vector<mesh::CellIndex> order(cells.size());
+    std::transform(cells.begin(), cells.end(), order.begin(), [](const KeyedCell& c) { return c.cell; });
+    return order;
+}
+
 double distanceOf(const mesh::ScalarMesh& mesh, const CameraFrame& frame, mesh::CellIndex cell) {
     glm::dvec3 sum(0);
     for (mesh::PointIndex p : mesh.cells[cell]) sum += mesh.positions[p] - frame.eye;
@@ -103,12 +164,15 @@ double distanceOf(const mesh::ScalarMesh& mesh, const CameraFrame& frame, mesh::
 /// remaining cell is taken out of turn; that can be wrong only in the pixels that it covers, and those are named.
 VisibilityOrder VisibilitySorter::sort(const CameraFrame& frame) const {
     const mesh::ScalarMesh& mesh = state_->mesh;
-    const CellProjector projector(mesh, sceneUnits(mesh), frame);
-
     VisibilityOrder order;
+    order.method = state_->method;
+    if (state_->method == "centroid") {
+        order.frontToBack = sortedByKeys(state_->keys, frame);
+        return order;
+    }
+    const CellProjector projector(mesh, sceneUnits(mesh), frame);
     Reentry reentry;
-    order.method = state_->convex ? "mpvo" : "mpvo+reentry";
-    if (!state_->convex) reentry = findReentry(mesh, state_->boundary, frame);
+    if (!state_->boundary.empty()) reentry = findReentry(mesh, state_->boundary, frame);
     order.doubtfulPixels = std::move(reentry.doubtfulPixels);
 
     VisibilityGraph graph(state_->adjacency, projector, reentry.edges);

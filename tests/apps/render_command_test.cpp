@@ -137,6 +137,14 @@ TEST_F(RenderCommand, VerifyMeasuresTheError) {
     EXPECT_LT(report["verification"]["max"], 1e-6) << "the reference against itself, in single precision";
 }
 
+TEST_F(RenderCommand, OrderIsChosenForMeasuring) {
+    for (const auto& [order, method] : {std::pair("auto", "power"), {"graph", "mpvo"}, {"centroid", "centroid"}}) {
+        expectGood(fmt::format("render bucky:4 -o a.exr --size 8x8 --report r.json --engine cpu --order {}", order));
+        EXPECT_EQ(json("r.json")["order"]["method"], method);
+    }
+    expectRefused("render bucky:4 -o a.exr --order best", {"--order", "best", "auto, graph, centroid"});
+}
+
 TEST_F(RenderCommand, QuietSaysNothing) {
     const Outcome outcome = tetralux("render bucky:4 -o a.png --size 8x8 --engine reference --frames 2 --quiet");
     EXPECT_EQ(outcome.status, 0);

@@ -229,6 +229,21 @@ public:
     std::string renderer() const override { return "test"; }
 };
 
+TEST(OrderMethod, WrongPixelsOfACentroidSortAreCountedNotRepaired) {
+    Scene scene = sceneOf(jitteredBoxMesh(6, 0.25, 5, plain), smoothFunction(0, 1, 5));
+    auto reportOf = [&](OrderMethod order) {
+        scene.settings.order = order;
+        FrameReport report;
+        makeEngine(scene, {.engine = "cpu"})->render(views()[0], report);
+        return report;
+    };
+    const FrameReport certain = reportOf(OrderMethod::Auto), plainSort = reportOf(OrderMethod::Centroid);
+    EXPECT_EQ(certain.pixelsWrong, 0u);
+    EXPECT_EQ(plainSort.orderMethod, "centroid");
+    EXPECT_GT(plainSort.pixelsWrong, 0u);
+    EXPECT_EQ(plainSort.pixelsRepaired, 0u);
+}
+
 TEST(ExactRepair, ReplacesDoubtfulPixelsOnly) {
     const Scene scene = sceneOf(boxMesh(4, plain), smoothFunction(0, 1));
     const Camera camera = cameraAt({1.9, 1.4, 2.3});

@@ -24,15 +24,15 @@ CLI::Option* addParsed(CLI::App& command, const std::string& name, Target& targe
 
 /// A finite number for which `good` holds; `wanted` says in words which ones those are.
 template <class Number, class Target>
-void addNumber(CLI::App& command, const std::string& name, Target& target, bool (*good)(double),
-               const std::string& wanted, const std::string& help) {
+CLI::Option* addNumber(CLI::App& command, const std::string& name, Target& target, bool (*good)(double),
+                       const std::string& wanted, const std::string& help) {
     const auto store = [&target, good, wanted, name](const Number& value) {
         const auto number = static_cast<double>(value);
         if (!std::isfinite(number) || !good(number))
             throw std::runtime_error(fmt::format("{}: {} will not do; give {}", name, value, wanted));
         target = value;
     };
-    command.add_option_function<Number>(name, store, help);
+    return command.add_option_function<Number>(name, store, help);
 }
 
 inline bool positive(double value) {

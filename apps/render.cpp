@@ -25,6 +25,8 @@ namespace tetralux::apps {
 
 namespace {
 
+constexpr int errorTooLarge = 3;  // the picture is whole and on disk, but not as exact as --max-error wants it
+
 /// OUT.png, or OUT_0000.png and so on.
 std::vector<std::string> outputPaths(const RenderOptions& options) {
     if (!options.frames) return {options.output};
@@ -48,9 +50,12 @@ void tell(const RenderOptions& options, const std::vector<std::string>& paths, c
     const RenderRecord& record = renderer.record();
     for (const std::string& line : defectLines(record.mesh)) fmt::print("{}: {}\n", options.source, line);
     if (record.verification)
-        fmt::print("error against the reference: rmse {:.2g} (95 % sure: below {:.2g}), max {:.2g} in {} pixels\n",
-                   record.verification->rmse, record.verification->rmseBound, record.verification->max,
-                   record.verification->pixels);
+        fmt::print(
+            "error against the reference: rmse {:.2g} (95 % sure: not above {:.2g}), max {:.2g} in {} pixels (95 % "
+            "sure: "
+            "above that in less than {:.2g} % of all)\n",
+            record.verification->rmse, record.verification->rmseBound, record.verification->max,
+            record.verification->pixels, 100.0 * record.verification->unseenShare);
     const projection::FrameReport& first = record.frames.front();
     double total = 0.0;
     for (const projection::FrameReport& frame : record.frames) total += frame.frameMilliseconds;
@@ -79,7 +84,14 @@ int render(const RenderOptions& options) {
     }
     if (!options.report.empty()) projection::writeWholeFile(options.report, jsonText(renderReport(options, renderer)));
     if (!options.quiet) tell(options, paths, renderer);
-    return 0;
+    if (withinMaxError(options, renderer.record())) return 0;
+    fmt::print(
+        stderr,
+        "tetralux: --max-error {}: the rmse is {:.2g} and may be {:.2g} (95 % sure: not more), the largest of {} "
+        "pixels' errors {:.2g}; see --table-error for tables and --engine reference for the truth\n",
+        *options.maxError, renderer.record().verification->rmse, renderer.record().verification->rmseBound,
+        renderer.record().verification->pixels, renderer.record().verification->max);
+    return errorTooLarge;
 }
 
 }  // namespace

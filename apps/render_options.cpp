@@ -19,6 +19,8 @@ namespace tetralux::apps {
 
 namespace {
 
+constexpr int usualVerifiedPixels = 1000;
+
 shading::DirectionalLight parseLight(const std::string& text) {
     const glm::dvec3 direction = parseVector("--light", text);
     const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
@@ -96,7 +98,11 @@ void addOutputOptions(CLI::App& command, RenderOptions& options) {
         command, "--frames", options.frames, [](double value) { return value >= 1.0 && value <= 1e6; },
         "a whole number from 1", "an orbit of so many pictures: OUT_0000.png, OUT_0001.png, ...");
     addNumber<int>(command, "--verify", options.verifiedPixels, positive, "a whole number from 1",
-                   "measure the error: compute so many pixels again by the reference");
+                   "measure the error: compute so many pixels again by the reference, 1000")
+        ->expected(0, 1)
+        ->default_str(std::to_string(usualVerifiedPixels));
+    addNumber<double>(command, "--max-error", options.maxError, notNegative, "a number from 0",
+                      "end with status 3 when the rmse may be larger (95 % bound of --verify)");
     command.add_option("--report", options.report, "JSON file with cells, times and memory");
     command.add_flag("--quiet", options.quiet, "nothing on standard output, no progress bar");
 }
@@ -116,6 +122,9 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
         command.option_defaults()->group(title);
         add(command, options);
     }
+    command.parse_complete_callback([&options] {
+        if (options.maxError && options.verifiedPixels == 0) options.verifiedPixels = usualVerifiedPixels;
+    });
 }
 
 }  // namespace tetralux::apps

@@ -35,8 +35,9 @@ struct RenderOptions {
     std::string output;         ///< .png or .exr
     std::optional<int> frames;  ///< an orbit of so many images
     std::optional<glm::vec3> background;
-    int verifiedPixels = 0;  ///< so many pixels of the first frame are computed again by the reference
-    std::string report;      ///< JSON file; empty: none
+    int verifiedPixels = 0;          ///< so many pixels of each frame are computed again by the reference
+    std::optional<double> maxError;  ///< largest rmse that may be found so, its 95 % bound that is
+    std::string report;              ///< JSON file; empty: none
     bool quiet = false;
 };
 

@@ -10,6 +10,10 @@
 
 namespace tetralux::apps {
 
+bool withinMaxError(const RenderOptions& options, const RenderRecord& record) {
+    return !options.maxError || record.verification->rmseBound <= *options.maxError;
+}
+
 namespace {
 
 using nlohmann::json;
@@ -114,6 +118,10 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
         {"peak_memory_bytes", peakMemoryBytes()},
     };
     if (record.verification) report["verification"] = verificationJson(*record.verification);
+    if (options.maxError) {
+        report["verification"]["max_error"] = *options.maxError;
+        report["verification"]["within"] = withinMaxError(options, record);
+    }
     if (const auto* table = engine.table()) report["table"] = tableJson(*table);
     return report;
 }

@@ -15,4 +15,7 @@ namespace tetralux::apps {
 /// times are in milliseconds.
 nlohmann::json renderReport(const RenderOptions& options, const SceneRenderer& renderer);
 
+/// Whether --max-error is kept: the 95 % bound of the rmse, of the worst frame, is no more than that.
+bool withinMaxError(const RenderOptions& options, const RenderRecord& record);
+
 }  // namespace tetralux::apps

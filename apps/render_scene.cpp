@@ -103,6 +103,13 @@ void SceneRenderer::readScene(const RenderOptions& options) {
                                                extentOf(*scene_.mesh, options.settings.mode));
 }
 
+/// Keeps what was found in the frame that may be farthest from the truth.
+void SceneRenderer::verify(const projection::Image& image, const projection::View& view) {
+    const auto found =
+        projection::verifyImage(image, scene_, view, static_cast<std::size_t>(verifiedPixels_), verificationSeed);
+    if (!record_.verification || !(found.rmseBound <= record_.verification->rmseBound)) record_.verification = found;
+}
+
 projection::Image SceneRenderer::render(double turn) {
     const projection::Camera camera =
         turn == 0.0 ? record_.camera : projection::orbited(record_.camera, 2.0 * std::numbers::pi * turn);
@@ -110,9 +117,7 @@ projection::Image SceneRenderer::render(double turn) {
     const Stopwatch watch;
     projection::Image image = engine_->render(camera, report);
     report.frameMilliseconds = watch.milliseconds();
-    if (verifiedPixels_ > 0 && !record_.verification)
-        record_.verification = projection::verifyImage(image, scene_, {camera, report.maps.get()},
-                                                       static_cast<std::size_t>(verifiedPixels_), verificationSeed);
+    if (verifiedPixels_ > 0) verify(image, {camera, report.maps.get()});
     report.maps.reset();  // a picture's worth of memory
     record_.frames.push_back(std::move(report));
     if (background_) projection::putUnder(image, *background_);

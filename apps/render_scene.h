@@ -27,7 +27,7 @@ struct RenderRecord {
     double readMilliseconds = 0.0;
     double prepareMilliseconds = 0.0;
     std::vector<projection::FrameReport> frames;
-    std::optional<projection::Verification> verification;  ///< of the first frame, if asked for
+    std::optional<projection::Verification> verification;  ///< of the frame with the largest bound, if asked for
 };
 
 class SceneRenderer {
@@ -44,6 +44,7 @@ public:
 
 private:
     void readScene(const RenderOptions& options);
+    void verify(const projection::Image& image, const projection::View& view);
 
     projection::Scene scene_;
     std::optional<glm::vec3> background_;

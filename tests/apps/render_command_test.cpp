@@ -137,6 +137,29 @@ TEST_F(RenderCommand, VerifyMeasuresTheError) {
     EXPECT_LT(report["verification"]["max"], 1e-6) << "the reference against itself, in single precision";
 }
 
+TEST_F(RenderCommand, MaxErrorDecidesTheStatus) {
+    const std::string common = "render bucky:6 -o a.exr --size 32x32 --engine cpu --table-error 0.1 --report r.json ";
+    expectGood(common + "--max-error 0.5");
+    nlohmann::json found = json("r.json")["verification"];
+    EXPECT_EQ(found["pixels"], 1000) << "of 1024";
+    EXPECT_EQ(found["within"], true);
+    EXPECT_GE(found["rmse_bound"], found["rmse"]);
+
+    std::filesystem::remove(path("a.exr"));
+    const Outcome outcome = tetralux(common + "--max-error 1e-12 --verify 300 --frames 2");
+    EXPECT_EQ(outcome.status, 3);
+    EXPECT_NE(outcome.err.find("--max-error 1e-12"), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
+    EXPECT_TRUE(exists("a_0001.exr")) << "the pictures are there all the same";
+    found = json("r.json")["verification"];
+    EXPECT_EQ(found["within"], false);
+    EXPECT_EQ(found["pixels"], 300);
+    EXPECT_EQ(found["max_error"], 1e-12);
+
+    expectGood("render bucky:4 -o a.exr --size 8x8 --engine reference --max-error 0.001 --verify");
+    expectRefused("render bucky:4 -o a.exr --max-error -1", {"--max-error", "a number from 0"});
+}
+
 TEST_F(RenderCommand, OrderIsChosenForMeasuring) {
     for (const auto& [order, method] : {std::pair("auto", "power"), {"graph", "mpvo"}, {"centroid", "centroid"}}) {
         expectGood(fmt::format("render bucky:4 -o a.exr --size 8x8 --report r.json --engine cpu --order {}", order));

@@ -47,7 +47,8 @@ CellShape shapeOf(const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {
 
 double depthError(const mesh::ScalarMesh& mesh, mesh::CellIndex cell, const preint::TransferFunction& function,
                   preint::Integral integral, double strongest) {
-    const auto [longest, altitude] = shapeOf(mesh, cell);
+    const CellShape shape = shapeOf(mesh, cell);
+    const double longest = shape.longestEdge, altitude = shape.leastAltitude;  // clang 14 captures no bindings
     double low = mesh.scalarAt(cell, 0), high = low;
     for (int k = 1; k < 4; ++k) {
         low = std::min(low, mesh.scalarAt(cell, k));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -189,6 +190,29 @@ TransferFunction resolved(const TransferFunction& function, double scalarMin, do
         for (ExtinctionNode& node : absolute.extinction) node.extinction = std::min(node.extinction / extent, largest);
     }
     return absolute;
+}
+
+TransferFunction windowed(const TransferFunction& function, double low, double high, double extent) {
+    if (function.normalized) return resolved(function, low, high, extent);
+    double first = std::numeric_limits<double>::infinity(), last = -first;
+    const auto include = [&](double scalar) {
+        first = std::min(first, scalar);
+        last = std::max(last, scalar);
+    };
+    for (const ColorNode& node : function.color) include(node.scalar);
+    for (const ExtinctionNode& node : function.extinction) include(node.scalar);
+    for (const Isosurface& surface : function.isosurfaces) include(surface.value);
+    if (!(last > first))
+        throw std::runtime_error(
+            "transfer function: a window cannot stretch it, all its nodes are at one scalar; give it two or leave the "
+            "window out");
+    TransferFunction fractions = function;
+    fractions.normalized = true;
+    const auto fraction = [&](double scalar) { return (scalar - first) / (last - first); };
+    for (ColorNode& node : fractions.color) node.scalar = fraction(node.scalar);
+    for (ExtinctionNode& node : fractions.extinction) node.scalar = fraction(node.scalar);
+    for (Isosurface& surface : fractions.isosurfaces) surface.value = fraction(surface.value);
+    return resolved(fractions, low, high, extent);
 }
 
 }  // namespace tetralux::preint

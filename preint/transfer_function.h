@@ -47,12 +47,17 @@ TransferFunction readTransferFunction(const std::string& path);
 /// The same from text; `origin` names it in messages.
 TransferFunction parseTransferFunction(const std::string& json, const std::string& origin);
 
-/// viridis, inferno, cool-to-warm, grayscale, rainbow, black-body, blue-to-yellow.
+/// viridis, inferno, plasma, magma, cividis, turbo, cool-to-warm, grayscale, rainbow, black-body, blue-to-yellow.
 std::vector<std::string> presetNames();
 TransferFunction preset(const std::string& name);
 
 /// In absolute units: fractions become scalars of [scalarMin, scalarMax]; extinction per extent becomes extinction
 /// per unit by division by `extent` (mesh diagonal for the standard integral, scalar range for the scale-invariant).
 TransferFunction resolved(const TransferFunction& function, double scalarMin, double scalarMax, double extent);
+
+/// Stretched over the scalars from `low` to `high`: a normalized function has its fractions count from there, any other
+/// one has its first and last node moved to them and the rest in proportion. Extinction stays as it is per unit; per
+/// extent it is divided by `extent`. \throws std::runtime_error when the function has no width to stretch.
+TransferFunction windowed(const TransferFunction& function, double low, double high, double extent);
 
 }  // namespace tetralux::preint

@@ -66,8 +66,9 @@ TEST(ColorSpace, SamplingFollowsTheSpaceClosely) {
 }
 
 TEST(Presets, AreWholeAndVisible) {
-    EXPECT_EQ(presetNames(), (std::vector<std::string>{"viridis", "inferno", "cool-to-warm", "grayscale", "rainbow",
-                                                       "black-body", "blue-to-yellow"}));
+    EXPECT_EQ(presetNames(),
+              (std::vector<std::string>{"viridis", "inferno", "plasma", "magma", "cividis", "turbo", "cool-to-warm",
+                                        "grayscale", "rainbow", "black-body", "blue-to-yellow"}));
     for (const std::string& name : presetNames()) {
         const TransferFunction function = preset(name);
         EXPECT_TRUE(function.normalized && function.extinctionPerExtent) << name;
@@ -82,6 +83,11 @@ TEST(Presets, HaveTheirPublishedColors) {
     // matplotlib's viridis[128] and inferno[64], which are not among the thinned nodes
     expectNear(preset("viridis").colorAt(128.0 / 255.0), {0.127568, 0.566949, 0.550556}, 1.0 / 510.0 + 1e-6, "viridis");
     expectNear(preset("inferno").colorAt(64.0 / 255.0), {0.341500, 0.062325, 0.429425}, 1.0 / 510.0 + 1e-6, "inferno");
+    // the same of plasma[128], magma[128], cividis[128] and turbo[64]
+    expectNear(preset("plasma").colorAt(128.0 / 255.0), {0.798216, 0.280197, 0.469538}, 1.0 / 510.0 + 1e-6, "plasma");
+    expectNear(preset("magma").colorAt(128.0 / 255.0), {0.716387, 0.214982, 0.475290}, 1.0 / 510.0 + 1e-6, "magma");
+    expectNear(preset("cividis").colorAt(128.0 / 255.0), {0.488697, 0.485318, 0.471008}, 1.0 / 510.0 + 1e-6, "cividis");
+    expectNear(preset("turbo").colorAt(64.0 / 255.0), {0.158440, 0.735510, 0.923050}, 1.0 / 510.0 + 1e-6, "turbo");
     expectNear(preset("cool-to-warm").colorAt(0.1), {0.351956, 0.468420, 0.890252}, 1.5e-3,
                "cool-to-warm as VTK has it");
     expectNear(preset("rainbow").colorAt(0.125), interpolateColor(ColorSpace::Hsv, {0, 0, 1}, {1, 0, 0}, 0.125), 1e-12,
@@ -96,7 +102,8 @@ TEST(Presets, UnknownNameListsTheKnownOnes) {
     } catch (const std::runtime_error& error) {
         EXPECT_STREQ(
             error.what(),
-            "there is no transfer function preset \"jet\"; known are viridis, inferno, cool-to-warm, grayscale, "
+            "there is no transfer function preset \"jet\"; known are viridis, inferno, plasma, magma, cividis, "
+            "turbo, cool-to-warm, grayscale, "
             "rainbow, black-body, blue-to-yellow");
     }
 }

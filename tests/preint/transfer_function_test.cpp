@@ -194,5 +194,33 @@ TEST(TransferFunction, MutatedCorpusIsReadOrRefusedInOneLine) {
     EXPECT_GT(read, 500) << "mutations that still parse test the rest";
 }
 
+TEST(TransferFunction, WindowStretches) {
+    TransferFunction function;
+    function.color = {{0.0, {0, 0, 0}}, {1.0, {1, 0.5, 0}}};
+    function.extinction = {{0.0, 2.0}, {0.5, 4.0}};
+    function.isosurfaces = {{0.25, 0.5, {1, 1, 1}}};
+    function.normalized = true;
+    TransferFunction narrow = windowed(function, 10.0, 12.0, 7.0);
+    EXPECT_FALSE(narrow.normalized);
+    EXPECT_NEAR(narrow.colorAt(10.5).x, 0.25, 1e-12);
+    EXPECT_EQ(narrow.colorAt(9.0), glm::dvec3(0)) << "what is below has the first colour";
+    EXPECT_EQ(narrow.colorAt(99.0), glm::dvec3(1, 0.5, 0));
+    EXPECT_NEAR(narrow.extinctionAt(10.5), 3.0, 1e-12) << "per unit as it was";
+    EXPECT_NEAR(narrow.isosurfaces[0].value, 10.5, 1e-12);
+
+    function.normalized = false;  // now 0 to 1 are scalars, and the same window takes the same nodes to the same places
+    narrow = windowed(function, 10.0, 12.0, 7.0);
+    EXPECT_NEAR(narrow.colorAt(10.5).x, 0.25, 1e-12);
+    EXPECT_NEAR(narrow.isosurfaces[0].value, 10.5, 1e-12);
+
+    function.extinctionPerExtent = true;
+    EXPECT_NEAR(windowed(function, 10.0, 12.0, 2.0).extinctionAt(10.5), 1.5, 1e-12);
+
+    function.color = {{3.0, {1, 1, 1}}};
+    function.extinction = {{3.0, 1.0}};
+    function.isosurfaces.clear();
+    EXPECT_THROW(windowed(function, 0.0, 1.0, 1.0), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace tetralux::preint

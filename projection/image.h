@@ -37,6 +37,10 @@ ImageDifference compareImages(const Image& a, const Image& b);
 /// The image over a colour: premultiplied composition, alpha becomes 1.
 void putUnder(Image& image, const glm::vec3& background);
 
+/// The picture in another size, by bilinear interpolation between pixel centres (made for enlarging: nothing is
+/// averaged). \throws std::runtime_error for an image without pixels.
+Image resized(const Image& image, int width, int height);
+
 /// Writes `.png` (8 bits, over black where it is not opaque) or `.exr` (32-bit float RGBA) by extension. The file
 /// appears whole or not at all: it is written beside and renamed. \throws std::runtime_error
 void writeImage(const Image& image, const std::string& path);

@@ -16,7 +16,7 @@
 #include <glm/geometric.hpp>
 
 #include <projection/cell_shading.h>
-#include <projection/edge_side.h>
+#include <projection/ray_triangle.h>
 
 namespace tetralux::projection {
 
@@ -25,31 +25,6 @@ namespace {
 /// Rays run this much beside the pixel's centre (pixels), so that none lies exactly within faces of a grid that is
 /// aligned with the view. It moves the picture by some 1e-10.
 constexpr double rayShiftX = 0x1p-32, rayShiftY = 0x1p-33;
-
-/// A point of the mesh seen along a ray: offset across the ray (two axes) and distance along it.
-struct RayPoint {
-    glm::dvec2 across;
-    double t;
-};
-
-/// Two axes across the ray.
-struct RayFrame {
-    glm::dvec3 origin, direction, across, other;
-
-    explicit RayFrame(const Ray& ray) : origin(ray.origin), direction(ray.direction) {
-        const glm::dvec3 a = glm::abs(direction);
-        const glm::dvec3 axis = a.x <= a.y && a.x <= a.z ? glm::dvec3(1, 0, 0)
-                                : a.y <= a.z             ? glm::dvec3(0, 1, 0)
-                                                         : glm::dvec3(0, 0, 1);
-        across = glm::normalize(glm::cross(direction, axis));
-        other = glm::cross(direction, across);
-    }
-
-    RayPoint see(const glm::dvec3& point) const {
-        const glm::dvec3 p = point - origin;
-        return {{glm::dot(p, across), glm::dot(p, other)}, glm::dot(p, direction)};
-    }
-};
 
 /// Where the ray passes a face.
 struct Crossing {
@@ -77,23 +52,13 @@ std::optional<Crossing> crossFace(const std::array<RayPoint, 4>& v, const mesh::
 
     const auto [a, b, c] = std::array{static_cast<std::size_t>(corners[0]), static_cast<std::size_t>(corners[1]),
                                       static_cast<std::size_t>(corners[2])};
-    const glm::dvec2 &qa = v[a].across, &qb = v[b].across, &qc = v[c].across;
-    const bool positive = passesPositive(qb, qc, points[b], points[c]);
-    if (positive != passesPositive(qc, qa, points[c], points[a]) ||
-        positive != passesPositive(qa, qb, points[a], points[b]))
-        return std::nullopt;
-    const double wa = edgeSide(qb, qc), wb = edgeSide(qc, qa), wc = edgeSide(qa, qb);
-    const double sum = wa + wb + wc;
-    if (sum == 0) return std::nullopt;  // the face is a line to this ray
-
-    auto blend = [&](double atA, double atB, double atC) {  // from differences: exact where all three are the same
-        return atA + wb / sum * (atB - atA) + wc / sum * (atC - atA);
-    };
+    const auto crossing = crossTriangle({v[a].across, v[b].across, v[c].across}, {points[a], points[b], points[c]});
+    if (!crossing) return std::nullopt;
     // across × other = direction, so a face that shows its outside to the eye has a negative area
-    return Crossing{
-        blend(v[a].t, v[b].t, v[c].t),
-        blend(mesh.scalarAt(cell, corners[0]), mesh.scalarAt(cell, corners[1]), mesh.scalarAt(cell, corners[2])),
-        positive == flipped};
+    return Crossing{crossing->blend(v[a].t, v[b].t, v[c].t),
+                    crossing->blend(mesh.scalarAt(cell, corners[0]), mesh.scalarAt(cell, corners[1]),
+                                    mesh.scalarAt(cell, corners[2])),
+                    crossing->positive == flipped};
 }
 
 /// Cuts the ray by one cell.

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/opaque_layer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
+
+#include <mesh/plane_cut.h>
+#include <projection/ray_triangle.h>
+
+namespace tetralux::projection {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr int tileSize = 32;  // pixels
+
+/// A slice may lie in a clipping plane: rounding must not decide whether it shows.
+constexpr double rangeTolerance = 1e-9;
+
+struct PixelBox {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // [x0, x1) × [y0, y1)
+    bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+int clampedPixel(double position, int size) {
+    return static_cast<int>(std::clamp(position, 0.0, static_cast<double>(size)));
+}
+
+}  // namespace
+
+OpaqueLayer::OpaqueLayer(const Scene& scene, const OpaqueObjects& objects)
+    : association_(scene.mesh->association),
+      transferFunction_(scene.transferFunction),
+      shading_(scene.settings.shading),
+      sliceCount_(objects.slices.size()),
+      surfaces_(objects.surfaces) {
+    std::uint32_t object = 0;
+    for (const Slice& slice : objects.slices) {
+        const mesh::SurfaceMesh cut = mesh::cutByPlane(*scene.mesh, slice.point, slice.normal);
+        if (cut.triangles.empty()) {
+            const mesh::BoundingBox& box = scene.mesh->bounds;
+            throw std::runtime_error(fmt::format(
+                "slice through {},{},{}: misses the mesh; give a point within {},{},{} and {},{},{}", slice.point.x,
+                slice.point.y, slice.point.z, box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z));
+        }
+        append(cut, object++);
+    }
+    for (const OpaqueSurface& surface : surfaces_) append(*surface.mesh, object++);
+}
+
+void OpaqueLayer::append(const mesh::SurfaceMesh& part, std::uint32_t object) {
+    const auto base = static_cast<mesh::PointIndex>(positions_.size());
+    const bool ofCells = part.association == mesh::Association::Cell && !part.scalars.empty();
+    positions_.insert(positions_.end(), part.positions.begin(), part.positions.end());
+    if (!ofCells) scalars_.insert(scalars_.end(), part.scalars.begin(), part.scalars.end());
+    for (std::size_t i = 0; i < part.triangles.size(); ++i) {
+        const auto& [a, b, c] = part.triangles[i];
+        triangles_.push_back({{base + a, base + b, base + c}, ofCells ? part.scalars[i] : 0.0, object});
+    }
+}
+
+glm::dvec3 OpaqueLayer::surfaceColor(const OpaqueSurface& surface, const Triangle& triangle, const Ray& ray) const {
+    if (surface.flat) return surface.color;
+    const auto& [a, b, c] = triangle.corners;
+    const glm::dvec3 across = glm::cross(positions_[b] - positions_[a], positions_[c] - positions_[a]);
+    const double twiceArea = glm::length(across);
+    if (twiceArea == 0) return surface.color;
+    const glm::dvec3 normal = across / (glm::dot(across, ray.direction) > 0 ? -twiceArea : twiceArea);
+    double light = shading_.ambient;
+    if (!shading_.lit()) light += (1.0 - std::min(1.0, light)) * -glm::dot(normal, ray.direction);
+    for (const auto& source : shading_.lights)
+        light += std::max(0.0, glm::dot(normal, source.towards));
+    return surface.color * std::min(light, 1.0);
+}
+
+/// One camera's view of all triangles.
+class OpaqueLayer::Frame {
+public:
+    Frame(const OpaqueLayer& layer, const Camera& camera, PixelMaps& maps)
+        : layer_(layer),
+          camera_(camera),
+          frame_(cameraFrame(camera)),
+          maps_(maps),
+          tilesAcross_((camera.width + tileSize - 1) / tileSize),
+          tilesDown_((camera.height + tileSize - 1) / tileSize) {}
+
+    void render() {
+        bin();
+        hits_.assign(static_cast<std::size_t>(frame_.width) * static_cast<std::size_t>(frame_.height), {});
+        tbb::parallel_for(0, tilesAcross_ * tilesDown_, [&](int tile) { renderTile(tile); });
+        for (std::size_t pixel = 0; pixel < hits_.size(); ++pixel)
+            if (hits_[pixel].distance < infinite)
+                putOpaque(camera_, maps_, pixel, hits_[pixel].distance, hits_[pixel].color);
+    }
+
+private:
+    struct Hit {
+        double distance = infinite;  // along the pixel's unit ray
+        glm::vec3 color{0};
+    };
+
+    /// Pixels whose rays can meet the triangle: those around its projection, or all when it reaches behind the eye.
+    PixelBox boxOf(const Triangle& triangle) const {
+        const double perPixel = glm::length(frame_.perPixelRight);
+        PixelBox all{0, 0, frame_.width, frame_.height};
+        glm::dvec2 low(infinite), high(-infinite);
+        double nearest = infinite, farthest = -infinite;
+        for (const mesh::PointIndex corner : triangle.corners) {
+            const glm::dvec3 p = layer_.positions_[corner] - frame_.eye;
+            const double depth = glm::dot(p, frame_.forward);
+            const double scale = 1.0 / (perPixel * (frame_.orthographic ? 1.0 : depth));
+            const glm::dvec2 at(glm::dot(p, frame_.right) * scale, -glm::dot(p, frame_.up) * scale);
+            low = glm::min(low, at + frame_.centre);
+            high = glm::max(high, at + frame_.centre);
+            nearest = std::min(nearest, depth);
+            farthest = std::max(farthest, depth);
+        }
+        if (!(farthest > 0)) return {};
+        if (!frame_.orthographic && !(nearest > 1e-9 * farthest)) return all;
+        constexpr double margin = 1e-3;  // pixels, far above rounding
+        return {clampedPixel(std::ceil(low.x - margin), all.x1), clampedPixel(std::ceil(low.y - margin), all.y1),
+                clampedPixel(std::floor(high.x + margin) + 1, all.x1),
+                clampedPixel(std::floor(high.y + margin) + 1, all.y1)};
+    }
+
+    template <class Use>
+    void forEachTile(const PixelBox& box, Use use) const {
+        if (box.empty()) return;
+        for (int y = box.y0 / tileSize; y <= (box.y1 - 1) / tileSize; ++y)
+            for (int x = box.x0 / tileSize; x <= (box.x1 - 1) / tileSize; ++x)
+                use(static_cast<std::size_t>(y * tilesAcross_ + x));
+    }
+
+    /// Triangles of each tile, ascending, so that the picture does not depend on the threads.
+    void bin() {
+        boxes_.resize(layer_.triangles_.size());
+        tbb::parallel_for(std::size_t{0}, boxes_.size(),
+                          [&](std::size_t i) { boxes_[i] = boxOf(layer_.triangles_[i]); });
+        tiles_.resize(static_cast<std::size_t>(tilesAcross_ * tilesDown_));
+        for (std::size_t i = 0; i < boxes_.size(); ++i)
+            forEachTile(boxes_[i], [&](std::size_t tile) { tiles_[tile].push_back(static_cast<std::uint32_t>(i)); });
+    }
+
+    void renderTile(int tile) {
+        const std::vector<std::uint32_t>& members = tiles_[static_cast<std::size_t>(tile)];
+        if (members.empty()) return;
+        const int x0 = tile % tilesAcross_ * tileSize, y0 = tile / tilesAcross_ * tileSize;
+        const PixelBox box{x0, y0, std::min(x0 + tileSize, frame_.width), std::min(y0 + tileSize, frame_.height)};
+        for (int y = box.y0; y < box.y1; ++y)
+            for (int x = box.x0; x < box.x1; ++x) renderPixel(x, y, members);
+    }
+
+    void renderPixel(int x, int y, const std::vector<std::uint32_t>& members) {
+        const std::size_t pixel =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_.width) + static_cast<std::size_t>(x);
+        const Ray ray = pixelRay(frame_, x, y);
+        const RayFrame rayFrame(ray);
+        double nearest = infinite;
+        const Triangle* met = nullptr;
+        TriangleCrossing where{};
+        for (const std::uint32_t index : members) {
+            const PixelBox& box = boxes_[index];
+            if (x < box.x0 || x >= box.x1 || y < box.y0 || y >= box.y1) continue;
+            const Triangle& triangle = layer_.triangles_[index];
+            const std::array<RayPoint, 3> seen{rayFrame.see(layer_.positions_[triangle.corners[0]]),
+                                               rayFrame.see(layer_.positions_[triangle.corners[1]]),
+                                               rayFrame.see(layer_.positions_[triangle.corners[2]])};
+            const auto crossing = crossTriangle({seen[0].across, seen[1].across, seen[2].across}, triangle.corners);
+            if (!crossing) continue;
+            const double t = crossing->blend(seen[0].t, seen[1].t, seen[2].t);
+            if (!(t > 0) || !(t < nearest) || (isSlice(triangle) && !inRange(pixel, t))) continue;
+            nearest = t;
+            met = &triangle;
+            where = *crossing;
+        }
+        if (met != nullptr) hits_[pixel] = {nearest, glm::vec3(colorOf(*met, where, ray))};
+    }
+
+    bool isSlice(const Triangle& triangle) const { return triangle.object < layer_.sliceCount_; }
+
+    bool inRange(std::size_t pixel, double t) const {
+        const double tolerance = rangeTolerance * t;
+        return (maps_.nearest.empty() || t >= maps_.nearest[pixel] - tolerance) &&
+               (maps_.farthest.empty() || t <= maps_.farthest[pixel] + tolerance);
+    }
+
+    glm::dvec3 colorOf(const Triangle& triangle, const TriangleCrossing& where, const Ray& ray) const {
+        if (!isSlice(triangle))
+            return layer_.surfaceColor(layer_.surfaces_[triangle.object - layer_.sliceCount_], triangle, ray);
+        const auto& [a, b, c] = triangle.corners;
+        const std::vector<double>& scalars = layer_.scalars_;
+        const double scalar = layer_.association_ == mesh::Association::Cell
+                                  ? triangle.scalar
+                                  : where.blend(scalars[a], scalars[b], scalars[c]);
+        return layer_.transferFunction_.colorAt(scalar);
+    }
+
+    const OpaqueLayer& layer_;
+    const Camera& camera_;
+    const CameraFrame frame_;
+    PixelMaps& maps_;
+    int tilesAcross_, tilesDown_;
+    std::vector<Hit> hits_;                          // by pixel
+    std::vector<PixelBox> boxes_;                    // by triangle
+    std::vector<std::vector<std::uint32_t>> tiles_;  // triangles by tile
+};
+
+void OpaqueLayer::apply(const Camera& camera, PixelMaps& maps) const {
+    if (!triangles_.empty()) Frame(*this, camera, maps).render();
+}
+
+}  // namespace tetralux::projection

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// Opaque slices and surfaces within the volume: found once per pixel in double precision, the same for all engines.
+/// An engine composes the volume only as far as them, and they are put under its picture: C = C_volume + T·C_layer.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <projection/camera.h>
+#include <projection/opaque_objects.h>
+#include <projection/pixel_maps.h>
+#include <projection/scene.h>
+
+namespace tetralux::projection {
+
+/// One of a scene's map sources; it comes behind clip planes, which leave out parts of slices (surfaces stay whole).
+class OpaqueLayer final : public PixelMapSource {
+public:
+    /// Cuts the slices out of the scene's mesh; its transfer function colours them, its lights fall on the surfaces.
+    /// \throws std::runtime_error when a slice misses the mesh.
+    OpaqueLayer(const Scene& scene, const OpaqueObjects& objects);
+
+    void apply(const Camera& camera, PixelMaps& maps) const override;
+
+private:
+    class Frame;
+    struct Triangle {
+        std::array<mesh::PointIndex, 3> corners;
+        double scalar;         // cell data: of the cell
+        std::uint32_t object;  // slices first
+    };
+
+    void append(const mesh::SurfaceMesh& part, std::uint32_t object);
+    glm::dvec3 surfaceColor(const OpaqueSurface& surface, const Triangle& triangle, const Ray& ray) const;
+
+    mesh::Association association_;  // of the mesh's scalar
+    preint::TransferFunction transferFunction_;
+    shading::ShadingSettings shading_;
+    std::size_t sliceCount_;
+    std::vector<OpaqueSurface> surfaces_;
+    std::vector<glm::dvec3> positions_;  // of all slices and surfaces
+    std::vector<double> scalars_;        // slices of point data: one per position of theirs
+    std::vector<Triangle> triangles_;
+};
+
+}  // namespace tetralux::projection

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <mesh/surface_mesh.h>
+
+namespace tetralux::projection {
+
+/// The plane through `point`; within the mesh it shows the transfer function's colour at the scalar there.
+struct Slice {
+    glm::dvec3 point, normal;  ///< mesh units; normal of any length but 0
+};
+
+/// An opaque surface, each triangle lit by itself from the side that the eye sees (colour as it is where `flat`).
+struct OpaqueSurface {
+    std::shared_ptr<const mesh::SurfaceMesh> mesh;
+    glm::dvec3 color{0.8, 0.8, 0.8};
+    bool flat = false;
+};
+
+/// What stands in the volume besides it.
+struct OpaqueObjects {
+    std::vector<Slice> slices;
+    std::vector<OpaqueSurface> surfaces;
+    bool empty() const { return slices.empty() && surfaces.empty(); }
+};
+
+}  // namespace tetralux::projection

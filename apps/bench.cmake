@@ -18,16 +18,7 @@ add_library(tetralux_bench STATIC
   run_program.cpp
 )
 target_compile_definitions(tetralux_bench PRIVATE TETRALUX_VERSION="${PROJECT_VERSION}")
-target_link_libraries(tetralux_bench PUBLIC tetralux_projection nlohmann_json::nlohmann_json PRIVATE fmt::fmt TBB::tbb)
-
-find_package(PkgConfig REQUIRED)
-pkg_check_modules(CAIRO QUIET IMPORTED_TARGET cairo)
-if(CAIRO_FOUND)
-  target_link_libraries(tetralux_bench PRIVATE PkgConfig::CAIRO)
-  target_compile_definitions(tetralux_bench PRIVATE TETRALUX_HAS_CAIRO)
-else()
-  message(STATUS "cairo was not found: `tetralux bench --plot` writes SVG only")
-endif()
+target_link_libraries(tetralux_bench PUBLIC tetralux_projection nlohmann_json::nlohmann_json PRIVATE fmt::fmt TBB::tbb PkgConfig::CAIRO)
 
 target_sources(tetralux PRIVATE bench.cpp bench_options.cpp)
 target_link_libraries(tetralux PRIVATE tetralux_bench)

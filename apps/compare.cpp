@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// tetralux compare: how far two images are from each other.
+// tetralux compare: how far two images are from each other, and how much structure they show.
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -13,6 +14,7 @@
 
 #include <apps/commands.h>
 #include <projection/image.h>
+#include <projection/image_structure.h>
 
 namespace tetralux::apps {
 
@@ -23,6 +25,7 @@ constexpr double anyError = std::numeric_limits<double>::infinity();
 struct CompareOptions {
     std::string first, second;
     double largestRmse = anyError, largestMax = anyError;
+    bool structure = false;
     bool json = false;
 };
 
@@ -31,33 +34,44 @@ bool isPng(const std::string& path) {
     return extension == ".png" || extension == ".PNG";
 }
 
-int compare(const CompareOptions& options) {
-    projection::Image first = projection::readImage(options.first);
-    projection::Image second = projection::readImage(options.second);
+projection::ImageDifference differenceOf(const CompareOptions& options, projection::Image& first,
+                                         projection::Image& second) {
     // A PNG is over black already, so the other one must be.
     if (isPng(options.first) != isPng(options.second)) {
         projection::putUnder(first, glm::vec3(0));
         projection::putUnder(second, glm::vec3(0));
     }
-    projection::ImageDifference difference;
     try {
-        difference = projection::compareImages(first, second);
+        return projection::compareImages(first, second);
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(fmt::format("{} and {}: {}", options.first, options.second, error.what()));
     }
+}
+
+void print(const CompareOptions& options, const projection::ImageDifference& difference,
+           const std::vector<double>& structure) {
     if (options.json) {
         // JSON has no infinity: equal images have psnr null
         const nlohmann::json psnr =
             std::isfinite(difference.psnr) ? nlohmann::json(difference.psnr) : nlohmann::json(nullptr);
-        fmt::print(
-            "{}\n",
-            nlohmann::json{
-                {"rmse", difference.rmse}, {"max", difference.max}, {"p99.9", difference.percentile999}, {"psnr", psnr}}
-                .dump());
-    } else {
-        fmt::print("rmse  {:.6g}\nmax   {:.6g}\np99.9 {:.6g}\npsnr  {:.2f} dB\n", difference.rmse, difference.max,
-                   difference.percentile999, difference.psnr);
+        nlohmann::json result{
+            {"rmse", difference.rmse}, {"max", difference.max}, {"p99.9", difference.percentile999}, {"psnr", psnr}};
+        if (!structure.empty()) result["structure"] = structure;
+        fmt::print("{}\n", result.dump());
+        return;
     }
+    fmt::print("rmse  {:.6g}\nmax   {:.6g}\np99.9 {:.6g}\npsnr  {:.2f} dB\n", difference.rmse, difference.max,
+               difference.percentile999, difference.psnr);
+    if (!structure.empty()) fmt::print("structure {:.6g} and {:.6g}\n", structure[0], structure[1]);
+}
+
+int compare(const CompareOptions& options) {
+    projection::Image first = projection::readImage(options.first);
+    projection::Image second = projection::readImage(options.second);
+    const projection::ImageDifference difference = differenceOf(options, first, second);
+    std::vector<double> structure;
+    if (options.structure) structure = {projection::structureScore(first), projection::structureScore(second)};
+    print(options, difference, structure);
     return difference.rmse <= options.largestRmse && difference.max <= options.largestMax ? 0 : 1;
 }
 
@@ -70,6 +84,8 @@ void addCompareCommand(CLI::App& program, Command& chosen) {
     command->add_option("B", options->second, ".png or .exr")->required();
     command->add_option("--max-rmse", options->largestRmse, "exit status 1 when rmse is above this");
     command->add_option("--max-error", options->largestMax, "exit status 1 when the largest difference is above this");
+    command->add_flag("--structure", options->structure,
+                      "also how much structure each shows: 0 for a uniform picture (multi-scale Haar wavelets)");
     command->add_flag("--json", options->json, "for machines");
     command->callback([options, &chosen] { chosen = [options] { return compare(*options); }; });
 }

@@ -60,18 +60,24 @@ std::optional<Number> parseNumber(std::string_view text) {
     return value;
 }
 
-/// Three finite numbers with commas between them.
-std::optional<glm::dvec3> parseTriple(std::string_view text) {
-    glm::dvec3 result(0);
-    for (int i = 0; i < 3; ++i) {
+/// `count` finite numbers with commas between them.
+std::optional<std::vector<double>> parseList(std::string_view text, std::size_t count) {
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < count; ++i) {
         const std::size_t comma = text.find(',');
-        if ((comma == std::string_view::npos) != (i == 2)) return std::nullopt;
+        if ((comma == std::string_view::npos) != (i + 1 == count)) return std::nullopt;
         const auto number = parseNumber<double>(text.substr(0, comma));
         if (!number || !std::isfinite(*number)) return std::nullopt;
-        result[i] = *number;
-        if (i < 2) text.remove_prefix(comma + 1);
+        numbers.push_back(*number);
+        if (i + 1 < count) text.remove_prefix(comma + 1);
     }
-    return result;
+    return numbers;
+}
+
+std::optional<glm::dvec3> parseTriple(std::string_view text) {
+    const auto numbers = parseList(text, 3);
+    if (!numbers) return std::nullopt;
+    return glm::dvec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
 }
 
 }  // namespace
@@ -80,6 +86,21 @@ glm::dvec3 parseVector(const std::string& option, const std::string& text) {
     if (const auto triple = parseTriple(text)) return *triple;
     throw std::runtime_error(
         fmt::format("{}: '{}' is not three numbers; give x,y,z without spaces, such as 1,0.5,-2", option, text));
+}
+
+std::vector<double> parseNumbers(const std::string& option, const std::string& text, std::size_t count,
+                                 const std::string& form) {
+    if (auto numbers = parseList(text, count)) return std::move(*numbers);
+    throw std::runtime_error(
+        fmt::format("{}: '{}' is not {} numbers; give {} without spaces", option, text, count, form));
+}
+
+glm::dvec3 parseColor(const std::string& option, const std::string& text) {
+    const auto color = parseTriple(text);
+    if (color && color->x >= 0 && color->y >= 0 && color->z >= 0 && color->x <= 1 && color->y <= 1 && color->z <= 1)
+        return *color;
+    throw std::runtime_error(fmt::format("{}: '{}' is no colour; give r,g,b with each from 0 to 1, such as 1,0.5,0{}",
+                                         option, text, option == "--background" ? ", or none" : ""));
 }
 
 glm::ivec2 parseSize(const std::string& option, const std::string& text) {
@@ -97,11 +118,7 @@ glm::ivec2 parseSize(const std::string& option, const std::string& text) {
 
 std::optional<glm::vec3> parseBackground(const std::string& option, const std::string& text) {
     if (text == "none") return std::nullopt;
-    const auto color = parseTriple(text);
-    if (color && color->x >= 0 && color->y >= 0 && color->z >= 0 && color->x <= 1 && color->y <= 1 && color->z <= 1)
-        return glm::vec3(*color);
-    throw std::runtime_error(
-        fmt::format("{}: '{}' is no colour; give r,g,b with each from 0 to 1, such as 1,1,1, or none", option, text));
+    return glm::vec3(parseColor(option, text));
 }
 
 Mode parseMode(const std::string& option, const std::string& text) {

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -16,6 +17,13 @@ namespace tetralux::apps {
 
 /// "x,y,z": three finite numbers.
 glm::dvec3 parseVector(const std::string& option, const std::string& text);
+
+/// `count` finite numbers with commas; `form` names them: "px,py,pz,nx,ny,nz".
+std::vector<double> parseNumbers(const std::string& option, const std::string& text, std::size_t count,
+                                 const std::string& form);
+
+/// "r,g,b" with each from 0 to 1.
+glm::dvec3 parseColor(const std::string& option, const std::string& text);
 
 /// "WxH": whole numbers from 1 to 16384.
 glm::ivec2 parseSize(const std::string& option, const std::string& text);

@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <apps/plot_canvas.h>
 #include <projection/whole_file.h>
@@ -184,17 +183,10 @@ Decades enclosingDecades(const std::vector<double>& values) {
     return decades;
 }
 
-std::vector<std::string> plotEndings() {
-    if (makePngCanvas(1, 1)) return {".svg", ".png"};
-    return {".svg"};
-}
-
 void checkPlotPath(const std::string& path) {
-    const std::vector<std::string> endings = plotEndings();
-    if (std::find(endings.begin(), endings.end(), endingOf(path)) == endings.end())
+    if (const std::string ending = endingOf(path); ending != ".svg" && ending != ".png")
         throw std::runtime_error(
-            fmt::format("{}: no plot can be written to a file of that kind here; let it end in {}{}", path,
-                        fmt::join(endings, " or "), endings.size() == 1 ? " (.png: build with libcairo2-dev)" : ""));
+            fmt::format("{}: no plot can be written to a file of that kind; let it end in .svg or .png", path));
     projection::checkWritable(path);
 }
 

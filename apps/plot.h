@@ -27,10 +27,7 @@ struct Plot {
     int columns = 1;
 };
 
-/// The endings that writePlot takes: ".svg" and, where the build has cairo, ".png".
-std::vector<std::string> plotEndings();
-
-/// \throws std::runtime_error when the ending of `path` is none of plotEndings().
+/// \throws std::runtime_error when `path` ends neither in ".svg" nor in ".png".
 void checkPlotPath(const std::string& path);
 
 /// The file appears whole or not at all. \throws std::runtime_error

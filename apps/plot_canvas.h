@@ -28,7 +28,6 @@ public:
 };
 
 std::unique_ptr<PlotCanvas> makeSvgCanvas(int width, int height);
-/// nullptr where the build has no cairo.
 std::unique_ptr<PlotCanvas> makePngCanvas(int width, int height);
 
 }  // namespace tetralux::apps

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <apps/plot_canvas.h>
 
-#ifdef TETRALUX_HAS_CAIRO
-
 #include <cairo.h>
 
 #include <numbers>
@@ -101,15 +99,3 @@ std::unique_ptr<PlotCanvas> makePngCanvas(int width, int height) {
 }
 
 }  // namespace tetralux::apps
-
-#else
-
-namespace tetralux::apps {
-
-std::unique_ptr<PlotCanvas> makePngCanvas(int, int) {
-    return nullptr;
-}
-
-}  // namespace tetralux::apps
-
-#endif

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -27,23 +28,40 @@ namespace {
 
 constexpr int errorTooLarge = 3;  // the picture is whole and on disk, but not as exact as --max-error wants it
 
+/// "OUT.png" with `addition` before the dot.
+std::string outputPath(const RenderOptions& options, const std::string& addition) {
+    std::filesystem::path path(options.output);
+    path.replace_filename(path.stem().string() + addition + path.extension().string());
+    return path.string();
+}
+
 /// OUT.png, or OUT_0000.png and so on.
 std::vector<std::string> outputPaths(const RenderOptions& options) {
     if (!options.frames) return {options.output};
     std::vector<std::string> paths;
-    const std::filesystem::path whole(options.output);
-    for (int i = 0; i < *options.frames; ++i) {
-        std::filesystem::path path = whole;
-        path.replace_filename(fmt::format("{}_{:04}{}", whole.stem().string(), i, whole.extension().string()));
-        paths.push_back(path.string());
-    }
+    for (int i = 0; i < *options.frames; ++i) paths.push_back(outputPath(options, fmt::format("_{:04}", i)));
     return paths;
+}
+
+/// OUT_preview.png; empty when none is asked for.
+std::string previewPath(const RenderOptions& options) {
+    if (options.previewMilliseconds <= 0.0) return "";
+    if (options.frames)
+        throw std::runtime_error("--preview: goes with one picture, not with --frames; leave one of them out");
+    return outputPath(options, "_preview");
 }
 
 /// Everything that could keep the results from being written must show before the work, not after.
 void checkOutputs(const RenderOptions& options, const std::vector<std::string>& paths) {
     for (const std::string& path : paths) projection::checkImagePath(path);
     if (!options.report.empty()) projection::checkWritable(options.report);
+}
+
+void tellPreview(const std::string& path, const RenderOptions& options, const projection::Preview& preview) {
+    fmt::print("{}: {}x{} pixels{}, {:.0f} ms of {:g} promised{}\n", path, preview.width, preview.height,
+               preview.gridPoints > 0 ? fmt::format(" of a coarse mesh ({0}x{0}x{0} points)", preview.gridPoints) : "",
+               preview.frameMilliseconds, options.previewMilliseconds,
+               preview.kept ? "" : ": even the least takes longer here");
 }
 
 void tell(const RenderOptions& options, const std::vector<std::string>& paths, const SceneRenderer& renderer) {
@@ -72,8 +90,14 @@ int render(const RenderOptions& options) {
                             static_cast<std::size_t>(options.settings.threads));
 
     const std::vector<std::string> paths = outputPaths(options);
+    const std::string preview = previewPath(options);
     checkOutputs(options, paths);
+    if (!preview.empty()) projection::checkImagePath(preview);
     SceneRenderer renderer(options);
+    if (!preview.empty()) {
+        projection::writeImage(renderer.preview(options.previewMilliseconds), preview);
+        if (!options.quiet) tellPreview(preview, options, *renderer.record().preview);
+    }
     {
         ProgressBar progress(static_cast<int>(paths.size()), paths.size() > 1 && !options.quiet);
         for (std::size_t i = 0; i < paths.size(); ++i) {

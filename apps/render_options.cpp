@@ -35,11 +35,21 @@ void addMeshOptions(CLI::App& command, RenderOptions& options) {
     addReadOptions(command, options.read);
 }
 
+glm::dvec2 parseWindow(const std::string& option, const std::string& text) {
+    const std::vector<double> values = parseNumbers(option, text, 2, "centre,width");
+    if (!(values[1] > 0.0))
+        throw std::runtime_error(
+            fmt::format("{}: '{}' has no width; give centre,width with a width above 0", option, text));
+    return {values[0], values[1]};
+}
+
 void addPictureOptions(CLI::App& command, RenderOptions& options) {
     command.add_option(
         "--tf", options.transferFunction,
         fmt::format("transfer function: JSON file or one of {}; default: cool-to-warm, nothing quite clear",
                     fmt::join(preint::presetNames(), ", ")));
+    addParsed(command, "--window", options.window, parseWindow,
+              "scalars over which the transfer function is stretched; default: the field's range", "centre,width");
     addParsed(command, "--mode", options.settings.mode, parseMode, modeNames(), "MODE");
     addParsed(command, "--background", options.background, parseBackground, "colour put under the picture, or none",
               "r,g,b");
@@ -97,6 +107,8 @@ void addOutputOptions(CLI::App& command, RenderOptions& options) {
     addNumber<int>(
         command, "--frames", options.frames, [](double value) { return value >= 1.0 && value <= 1e6; },
         "a whole number from 1", "an orbit of so many pictures: OUT_0000.png, OUT_0001.png, ...");
+    addNumber<double>(command, "--preview", options.previewMilliseconds, positive, "milliseconds above 0",
+                      "first a quick picture, OUT_preview.png, whose frame takes no longer than so many milliseconds");
     addNumber<int>(command, "--verify", options.verifiedPixels, positive, "a whole number from 1",
                    "measure the error: compute so many pixels again by the reference, 1000")
         ->expected(0, 1)
@@ -113,11 +125,14 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
     command.add_option("MESH", options.source, "mesh file, or bucky:N, coulomb:N, marschner-lobb:N, hydrogen:N")
         ->required();
     using Section = void (*)(CLI::App&, RenderOptions&);
-    const std::pair<const char*, Section> sections[] = {{"Output", addOutputOptions},
-                                                        {"Mesh", addMeshOptions},
-                                                        {"Picture", addPictureOptions},
-                                                        {"Camera", addCameraOptions},
-                                                        {"Machine", addMachineOptions}};
+    const std::pair<const char*, Section> sections[] = {
+        {"Output", addOutputOptions},
+        {"Mesh", addMeshOptions},
+        {"Picture", addPictureOptions},
+        {"In the volume", [](CLI::App& c, RenderOptions& o) { addOpaqueOptions(c, o.opaque); }},
+        {"Annotation", [](CLI::App& c, RenderOptions& o) { addAnnotationOptions(c, o.annotation); }},
+        {"Camera", addCameraOptions},
+        {"Machine", addMachineOptions}};
     for (const auto& [title, add] : sections) {
         command.option_defaults()->group(title);
         add(command, options);

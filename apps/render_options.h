@@ -9,6 +9,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <apps/annotation.h>
+#include <apps/opaque_options.h>
 #include <mesh/read_mesh.h>
 #include <projection/engine.h>
 #include <projection/scene.h>
@@ -23,8 +25,11 @@ struct RenderOptions {
     std::string source;  ///< mesh file or generated field
     std::string scalar;  ///< empty: the first field
     mesh::ReadOptions read;
-    std::string transferFunction;  ///< file or preset; empty: the default
+    std::string transferFunction;      ///< file or preset; empty: the default
+    std::optional<glm::dvec2> window;  ///< scalars over which the transfer function is stretched: centre, width
     projection::RenderSettings settings;
+    OpaqueOptions opaque;
+    AnnotationOptions annotation;
     projection::EngineOptions engine;
 
     glm::ivec2 size{512, 512};                  ///< pixels
@@ -32,8 +37,9 @@ struct RenderOptions {
     double fovDegrees = 30.0;
     double orthographicHeight = 0.0;  ///< mesh units; 0: perspective
 
-    std::string output;         ///< .png or .exr
-    std::optional<int> frames;  ///< an orbit of so many images
+    std::string output;                ///< .png or .exr
+    std::optional<int> frames;         ///< an orbit of so many images
+    double previewMilliseconds = 0.0;  ///< > 0: a quick picture in this time comes first
     std::optional<glm::vec3> background;
     int verifiedPixels = 0;          ///< so many pixels of each frame are computed again by the reference
     std::optional<double> maxError;  ///< largest rmse that may be found so, its 95 % bound that is

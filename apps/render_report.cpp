@@ -71,6 +71,14 @@ json verificationJson(const projection::Verification& found) {
             {"unseen_share", found.unseenShare}};
 }
 
+json previewJson(const projection::Preview& preview, double promised) {
+    return {{"promised_ms", promised},
+            {"frame_ms", preview.frameMilliseconds},
+            {"kept", preview.kept},
+            {"size", {preview.width, preview.height}},
+            {"grid", preview.gridPoints}};
+}
+
 json cameraJson(const projection::Camera& camera) {
     json result = {
         {"eye", vectorJson(camera.eye)}, {"target", vectorJson(camera.target)}, {"up", vectorJson(camera.up)}};
@@ -122,6 +130,7 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
         report["verification"]["max_error"] = *options.maxError;
         report["verification"]["within"] = withinMaxError(options, record);
     }
+    if (record.preview) report["preview"] = previewJson(*record.preview, options.previewMilliseconds);
     if (const auto* table = engine.table()) report["table"] = tableJson(*table);
     return report;
 }

@@ -13,6 +13,7 @@
 #include <apps/stopwatch.h>
 #include <mesh/read_mesh.h>
 #include <preint/transfer_function.h>
+#include <projection/opaque_layer.h>
 
 namespace tetralux::apps {
 
@@ -50,10 +51,21 @@ double thickness(const mesh::BoundingBox& box) {
     return surface > 0.0 ? 3.0 * std::numbers::sqrt3 * longest * part.x * part.y * part.z / surface : box.diagonal();
 }
 
-/// What "per extent" in a transfer function means for this mode (preint::TransferFunction::extinctionPerExtent).
-double extentOf(const mesh::ScalarMesh& mesh, projection::Mode mode) {
-    return projection::integralOf(mode) == preint::Integral::ScaleInvariant ? mesh.scalarMax - mesh.scalarMin
-                                                                            : thickness(mesh.bounds);
+/// The scalars that the colour bar shows: the window if there is one, else the field's range.
+glm::dvec2 rangeOf(const RenderOptions& options, const mesh::ScalarMesh& mesh) {
+    if (!options.window) return {mesh.scalarMin, mesh.scalarMax};
+    return {options.window->x - 0.5 * options.window->y, options.window->x + 0.5 * options.window->y};
+}
+
+/// In absolute units: over the window if there is one, else over the field's range.
+preint::TransferFunction resolvedFor(const RenderOptions& options, const preint::TransferFunction& function,
+                                     const mesh::ScalarMesh& mesh) {
+    const glm::dvec2 range = rangeOf(options, mesh);
+    // what "per extent" in a transfer function means for this mode (preint::TransferFunction::extinctionPerExtent)
+    const bool perScalar = projection::integralOf(options.settings.mode) == preint::Integral::ScaleInvariant;
+    const double extent = perScalar ? range.y - range.x : thickness(mesh.bounds);
+    return options.window ? preint::windowed(function, range.x, range.y, extent)
+                          : preint::resolved(function, range.x, range.y, extent);
 }
 
 projection::Camera cameraFor(const RenderOptions& options, const mesh::BoundingBox& bounds) {
@@ -65,6 +77,8 @@ projection::Camera cameraFor(const RenderOptions& options, const mesh::BoundingB
     camera.up = options.up.value_or(camera.up);
     camera.target = options.target.value_or(bounds.centre());
     camera.eye = options.eye ? *options.eye : projection::threeQuarterEye(bounds, camera);
+    constexpr double roomForNumbers = 1.25;
+    if (!options.eye && options.annotation.axes) camera.eye += (roomForNumbers - 1.0) * (camera.eye - bounds.centre());
     projection::cameraFrame(camera);  // throws now rather than after preparing
     return camera;
 }
@@ -72,7 +86,10 @@ projection::Camera cameraFor(const RenderOptions& options, const mesh::BoundingB
 }  // namespace
 
 SceneRenderer::SceneRenderer(const RenderOptions& options)
-    : background_(options.background), verifiedPixels_(options.verifiedPixels) {
+    : engineOptions_(options.engine),
+      annotation_(options.annotation),
+      background_(options.background),
+      verifiedPixels_(options.verifiedPixels) {
     readScene(options);
     const Stopwatch watch;
     record_.camera = cameraFor(options, scene_.mesh->bounds);
@@ -99,8 +116,17 @@ void SceneRenderer::readScene(const RenderOptions& options) {
     record_.tetrahedra = scene_.mesh->cells.size();
     scene_.settings = options.settings;
     scene_.settings.table.threads = options.settings.threads;
-    scene_.transferFunction = preint::resolved(transferFunction, record_.scalarMin, record_.scalarMax,
-                                               extentOf(*scene_.mesh, options.settings.mode));
+    scene_.transferFunction = resolvedFor(options, transferFunction, *scene_.mesh);
+    const glm::dvec2 range = rangeOf(options, *scene_.mesh);
+    annotated_ = {record_.fieldName,
+                  range.x,
+                  range.y,
+                  scene_.transferFunction,
+                  scene_.mesh->bounds,
+                  glm::dvec3(background_.value_or(glm::vec3(0)))};
+    if (!options.opaque.empty())
+        scene_.mapSources.push_back(
+            std::make_shared<const projection::OpaqueLayer>(scene_, readOpaqueObjects(options.opaque)));
 }
 
 /// Keeps what was found in the frame that may be farthest from the truth.
@@ -120,7 +146,19 @@ projection::Image SceneRenderer::render(double turn) {
     if (verifiedPixels_ > 0) verify(image, {camera, report.maps.get()});
     report.maps.reset();  // a picture's worth of memory
     record_.frames.push_back(std::move(report));
+    return finished(std::move(image), camera);
+}
+
+projection::Image SceneRenderer::preview(double promisedMilliseconds) {
+    projection::PreviewRenderer renderer(scene_, engineOptions_, *engine_);
+    record_.preview = renderer.render(record_.camera, promisedMilliseconds);
+    return finished(std::move(record_.preview->image), record_.camera);
+}
+
+projection::Image SceneRenderer::finished(projection::Image image, const projection::Camera& camera) const {
+    drawBehind(annotation_, annotated_, camera, image);
     if (background_) projection::putUnder(image, *background_);
+    drawInFront(annotation_, annotated_, camera, image);
     return image;
 }
 

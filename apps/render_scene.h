@@ -10,9 +10,11 @@
 #include <string>
 #include <vector>
 
+#include <apps/annotation.h>
 #include <apps/render_options.h>
 #include <mesh/mesh_report.h>
 #include <projection/engine.h>
+#include <projection/preview.h>
 #include <projection/verification.h>
 
 namespace tetralux::apps {
@@ -28,6 +30,7 @@ struct RenderRecord {
     double prepareMilliseconds = 0.0;
     std::vector<projection::FrameReport> frames;
     std::optional<projection::Verification> verification;  ///< of the frame with the largest bound, if asked for
+    std::optional<projection::Preview> preview;            ///< if asked for, its picture moved away
 };
 
 class SceneRenderer {
@@ -36,8 +39,12 @@ public:
     /// \throws std::runtime_error for bad input, naming file, field or option
     explicit SceneRenderer(const RenderOptions& options);
 
-    /// The image seen after the eye has turned by `turn` (1: once round) about `up`, background included.
+    /// The image seen after the eye has turned by `turn` (1: once round) about `up`, annotation and background
+    /// included.
     projection::Image render(double turn);
+
+    /// A quick one of the first frame, in the promised time if that can be; annotation and background included.
+    projection::Image preview(double promisedMilliseconds);
 
     const RenderRecord& record() const { return record_; }
     const projection::Engine& engine() const { return *engine_; }
@@ -46,7 +53,13 @@ private:
     void readScene(const RenderOptions& options);
     void verify(const projection::Image& image, const projection::View& view);
 
+    /// With annotation and background.
+    projection::Image finished(projection::Image image, const projection::Camera& camera) const;
+
     projection::Scene scene_;
+    projection::EngineOptions engineOptions_;
+    AnnotationOptions annotation_;
+    AnnotatedScene annotated_;
     std::optional<glm::vec3> background_;
     int verifiedPixels_ = 0;
     std::unique_ptr<projection::Engine> engine_;

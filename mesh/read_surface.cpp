@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <mesh/read_surface.h>
 
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <vtkCellArray.h>
@@ -73,6 +78,21 @@ vtkSmartPointer<vtkPolyData> readOff(const std::string& path) {
     return surface;
 }
 
+/// VTK takes a binary STL that ends too early for a whole one: 80 bytes, the number of triangles, 50 bytes for each.
+void checkStlSize(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, 84> head{};
+    file.read(head.data(), head.size());
+    const std::string_view begin(head.data(), static_cast<std::size_t>(file.gcount()));
+    const bool text = begin.starts_with("solid") && begin.find('\0') == std::string_view::npos;
+    if (text || begin.size() < head.size()) return;  // VTK finds what is wrong with them
+    std::uint32_t triangles = 0;
+    std::memcpy(&triangles, head.data() + 80, sizeof triangles);
+    if (const std::uintmax_t size = std::filesystem::file_size(path); size < 84 + std::uintmax_t{50} * triangles)
+        throw std::runtime_error(
+            fmt::format("{}: has {} bytes, too few for its {} triangles; write the file again", path, size, triangles));
+}
+
 PolygonReader readerFor(const std::string& path) {
     if (hasExtension(path, {".stl"})) return readWith<vtkSTLReader>;
     if (hasExtension(path, {".obj"})) return readWith<vtkOBJReader>;
@@ -116,6 +136,7 @@ CellSoup trianglesOf(vtkPolyData* surface) {
 SurfaceMesh readSurface(const std::string& path) {
     const PolygonReader read = readerFor(path);
     checkReadable(path);
+    if (hasExtension(path, {".stl"})) checkStlSize(path);
     // our own parser needs no process of its own; VTK makes triangles of what it found
     const vtkSmartPointer<vtkPolyData> parsed = read == readOff ? readOff(path) : nullptr;
     const CellSoup soup = readIsolated(path, [&] {

@@ -84,25 +84,35 @@ Preview PreviewRenderer::render(const Camera& camera, double promisedMillisecond
     Cost cost = measure(camera);
     coarsen(camera, promisedMilliseconds, cost);
 
-    Preview preview;
     const double least =
         std::min(1.0, std::pow(leastSide / static_cast<double>(std::max(camera.width, camera.height)), 2));
     double share = 1.0;
     if (cost.base + cost.perPixel * pixelsOf(camera) > aim * promisedMilliseconds && cost.perPixel > 0)
         share = (aim * promisedMilliseconds - cost.base) / (cost.perPixel * pixelsOf(camera));
-    for (int attempt = 0; attempt < attempts && !preview.kept; ++attempt) {
+    Preview best;
+    for (int attempt = 0; attempt < attempts; ++attempt) {
         share = std::clamp(share, least, 1.0);
-        const Camera view = smaller(camera, share);
-        FrameReport report;
-        const auto start = Clock::now();
-        preview.image = resized(engine_->render(view, report), camera.width, camera.height);
-        preview.frameMilliseconds = millisecondsSince(start);
-        preview.width = view.width;
-        preview.height = view.height;
-        preview.gridPoints = gridPoints_;
-        preview.kept = preview.frameMilliseconds <= promisedMilliseconds;
-        share *= 0.7 * promisedMilliseconds / preview.frameMilliseconds;
+        Preview preview = attemptOf(smaller(camera, share), camera, promisedMilliseconds);
+        const bool better = preview.kept ? !best.kept || preview.width > best.width : !best.kept;
+        const double used = preview.frameMilliseconds / promisedMilliseconds;
+        if (better) best = std::move(preview);
+        // too long, or less than half of the time was used though there are pixels left to draw
+        if (best.kept && (used > 0.5 || share >= 1.0)) break;
+        share *= std::min(4.0, aim / used);
     }
+    return best;
+}
+
+Preview PreviewRenderer::attemptOf(const Camera& view, const Camera& whole, double promisedMilliseconds) {
+    Preview preview;
+    FrameReport report;
+    const auto start = Clock::now();
+    preview.image = resized(engine_->render(view, report), whole.width, whole.height);
+    preview.frameMilliseconds = millisecondsSince(start);
+    preview.width = view.width;
+    preview.height = view.height;
+    preview.gridPoints = gridPoints_;
+    preview.kept = preview.frameMilliseconds <= promisedMilliseconds;
     return preview;
 }
 

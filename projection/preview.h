@@ -34,6 +34,7 @@ private:
         double base, perPixel;  // milliseconds
     };
     Cost measure(const Camera& camera);
+    Preview attemptOf(const Camera& view, const Camera& whole, double promisedMilliseconds);
     void coarsen(const Camera& camera, double promisedMilliseconds, Cost& cost);
 
     Scene scene_;

@@ -141,6 +141,7 @@ TEST_F(ReadSurface, BadFilesAreRefusedInOneLine) {
         {"noise.vtp", "noise"},
         {"noise.obj", "noise"},
         {"cut.ply", std::string(plyText).substr(0, 150)},
+        {"cut.stl", std::string(80, ' ') + std::string("\x02\0\0\0", 4) + std::string(60, '\0')},
         {"cut.off", whole.substr(0, whole.size() - 9)},
         {"wrong.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"},
         {"huge.off", "OFF\n99999999999 1 0\n0 0 0\n"},

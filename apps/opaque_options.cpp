@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <apps/opaque_options.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <glm/common.hpp>
+
+#include <apps/option_values.h>
+#include <mesh/read_surface.h>
+
+namespace tetralux::apps {
+
+namespace {
+
+projection::Slice parseSlice(const std::string& text) {
+    const std::vector<double> v = parseNumbers("--slice", text, 6, "px,py,pz,nx,ny,nz (a point and the normal)");
+    const glm::dvec3 normal(v[3], v[4], v[5]);
+    const double largest = std::max({std::abs(v[3]), std::abs(v[4]), std::abs(v[5])});
+    if (largest == 0.0)
+        throw std::runtime_error(fmt::format("--slice: '{}' has the normal 0,0,0; give one with a direction", text));
+    return {{v[0], v[1], v[2]}, normal / largest};
+}
+
+/// An option that may be given several times; each text is handed to `take`.
+void addRepeated(CLI::App& command, const std::string& name, const std::string& form, const std::string& help,
+                 const std::function<void(const std::string&)>& take) {
+    command
+        .add_option_function<std::vector<std::string>>(
+            name,
+            [take](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) take(text);
+            },
+            help)
+        ->type_name(form)
+        ->allow_extra_args(false);
+}
+
+}  // namespace
+
+void addOpaqueOptions(CLI::App& command, OpaqueOptions& options) {
+    addRepeated(command, "--slice", "px,py,pz,nx,ny,nz",
+                "opaque slice through a point with a normal; may be given several times",
+                [&options](const std::string& text) { options.slices.push_back(parseSlice(text)); });
+    addRepeated(command, "--surface", "FILE",
+                "opaque surface in the volume (.stl .obj .ply .off .vtp .vtk); may be given several times",
+                [&options](const std::string& text) { options.surfaces.push_back(text); });
+    addRepeated(
+        command, "--surface-color", "r,g,b", "colour of the surfaces, 0.8,0.8,0.8; one for all or one for each",
+        [&options](const std::string& text) { options.surfaceColors.push_back(parseColor("--surface-color", text)); });
+    command.add_flag("--surface-flat", options.flat, "surfaces in their colour, without light");
+}
+
+projection::OpaqueObjects readOpaqueObjects(const OpaqueOptions& options) {
+    const std::size_t colors = options.surfaceColors.size(), surfaces = options.surfaces.size();
+    if (colors > 1 && colors != surfaces)
+        throw std::runtime_error(
+            fmt::format("--surface-color: {} colours for {} surfaces; give one, or one for each", colors, surfaces));
+    projection::OpaqueObjects objects;
+    objects.slices = options.slices;
+    for (std::size_t i = 0; i < surfaces; ++i) {
+        projection::OpaqueSurface surface;
+        surface.mesh = std::make_shared<const mesh::SurfaceMesh>(mesh::readSurface(options.surfaces[i]));
+        if (colors > 0) surface.color = options.surfaceColors[colors > 1 ? i : 0];
+        surface.flat = options.flat;
+        objects.surfaces.push_back(std::move(surface));
+    }
+    return objects;
+}
+
+}  // namespace tetralux::apps

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// What stands in the volume: --slice, --surface and how they look.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <projection/opaque_objects.h>
+
+namespace CLI {
+class App;
+}
+
+namespace tetralux::apps {
+
+struct OpaqueOptions {
+    std::vector<projection::Slice> slices;
+    std::vector<std::string> surfaces;      ///< files
+    std::vector<glm::dvec3> surfaceColors;  ///< none, one for all, or one for each
+    bool flat = false;                      ///< surfaces without light
+
+    bool empty() const { return slices.empty() && surfaces.empty(); }
+};
+
+void addOpaqueOptions(CLI::App& command, OpaqueOptions& options);
+
+/// Reads the surfaces. \throws std::runtime_error naming the file or option.
+projection::OpaqueObjects readOpaqueObjects(const OpaqueOptions& options);
+
+}  // namespace tetralux::apps

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// tetralux render: slices, surfaces, window, annotation, preview; compare --structure.
+#include <cmath>
+
+#include <projection/image.h>
+
+#include "command_line_test.h"
+
+namespace tetralux::tests {
+namespace {
+
+using PictureOptions = CommandLine;
+using projection::Image;
+using projection::readImage;
+
+constexpr const char* squareOff = "OFF\n4 1 0\n-9 -9 0.5\n9 -9 0.5\n9 9 0.5\n-9 9 0.5\n4 0 1 2 3\n";
+
+TEST_F(PictureOptions, SliceAndSurfaceEndTheVolume) {
+    write("corner.vtu", vtuText(cornerTetrahedron(5)));
+    write("square.off", squareOff);
+    const std::string render = std::string("render corner.vtu -o a.exr --quiet --tf constant.json") + lineView;
+    // a length of 1 in the cell, from z = 1 to 0; what is opaque stands at z = 0.5
+    const double alpha = 1.0 - std::exp(-0.35);
+    expectGood(render + " --surface square.off --surface-color 0,1,0 --surface-flat");
+    glm::vec4 pixel = readImage(path("a.exr")).at(0, 0);
+    EXPECT_NEAR(pixel.x, alpha, 2e-6);
+    EXPECT_NEAR(pixel.y, 0.5 * alpha + (1 - alpha), 2e-6);
+    EXPECT_NEAR(pixel.z, 0.25 * alpha, 2e-6);
+    EXPECT_EQ(pixel.w, 1.0f);
+    expectGood(render + " --slice 0,0,0.5,0,0,1");  // in the transfer function's colour, which is the volume's
+    pixel = readImage(path("a.exr")).at(0, 0);
+    EXPECT_NEAR(pixel.x, 1.0, 2e-6);
+    EXPECT_NEAR(pixel.y, 0.5, 2e-6);
+    EXPECT_EQ(pixel.w, 1.0f);
+}
+
+TEST_F(PictureOptions, BadObjectsAreRefused) {
+    write("square.off", squareOff);
+    write("broken.stl", "solid\nfacet nor");
+    write("noise.ply", "\x01\x02");
+    const std::string render = "render bucky:6 -o a.png --size 8x8";
+    expectRefused(render + " --surface missing.stl", {"missing.stl", "no such file"});
+    expectRefused(render + " --surface broken.stl", {"broken.stl"});
+    expectRefused(render + " --surface noise.ply", {"noise.ply"});
+    expectRefused(render + " --surface constant.json", {"constant.json", ".stl"});
+    expectRefused(render + " --surface square.off --surface-color 1,2,0", {"--surface-color", "1,2,0"});
+    expectRefused(render + " --surface square.off --surface-color 1,0,0 --surface-color 1,1,0",
+                  {"--surface-color", "2 colours for 1"});
+    expectRefused(render + " --slice 0,0,0,0,0,0", {"--slice", "normal"});
+    expectRefused(render + " --slice 0,0,0,1", {"--slice", "px,py,pz,nx,ny,nz"});
+    expectRefused(render + " --slice 0,0,nan,0,0,1", {"--slice"});
+    expectRefused(render + " --slice 0,0,7,0,0,1", {"slice", "0,0,7", "misses the mesh"});
+}
+
+TEST_F(PictureOptions, WindowStretchesTheTransferFunction) {
+    write("ramp.json", R"({"normalized": true, "color": [[0, 0, 0, 0], [1, 1, 1, 1]], "extinction": [[0, 1000]]})");
+    write("corner.vtu", vtuText(cornerTetrahedron(5)));
+    const std::string render = std::string("render corner.vtu -o a.exr --quiet --tf ramp.json") + lineView;
+    for (const auto& [window, gray] :
+         {std::pair("5,2", 0.5), std::pair("4,4", 0.75), std::pair("7,2", 0.0), std::pair("0,2", 1.0)}) {
+        expectGood(render + " --window " + window);
+        EXPECT_NEAR(readImage(path("a.exr")).at(0, 0).x, gray, 1e-5) << window;
+    }
+    expectRefused("render bucky:6 -o b.png --window 1,0", {"--window", "width"});
+    expectRefused("render bucky:6 -o b.png --window 1", {"--window", "centre,width"});
+    expectRefused("render bucky:6 -o b.png --window 1,2 --tf constant.json", {"window"});
+}
+
+TEST_F(PictureOptions, AnnotationChangesOnlyWhatItCovers) {
+    const std::string render = "render bucky:6 --size 200x160 --quiet --engine cpu -o ";
+    expectGood(render + "plain.exr");
+    expectGood(render + "noted.exr --color-bar --axes --title Bucky");
+    const Image plain = readImage(path("plain.exr")), noted = readImage(path("noted.exr"));
+    int changed = 0;
+    for (std::size_t i = 0; i < plain.pixels.size(); ++i) changed += plain.pixels[i] != noted.pixels[i] ? 1 : 0;
+    EXPECT_GT(changed, 1500);
+    EXPECT_LT(changed, 200 * 160 / 2);
+    expectGood(render + "noted.png --color-bar --axes --title Bucky --background 1,1,1");
+}
+
+TEST_F(PictureOptions, PreviewComesFirstAndBothTimesAreTold) {
+    const Outcome outcome =
+        tetralux("render bucky:8 -o a.png --size 128x96 --engine cpu --preview 500 --report r.json");
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("a_preview.png: "), std::string::npos) << outcome.out;
+    EXPECT_LT(outcome.out.find("a_preview.png: "), outcome.out.find("a.png: "));
+    const Image preview = readImage(path("a_preview.png")), refined = readImage(path("a.png"));
+    EXPECT_EQ(preview.width, 128);
+    EXPECT_LT(projection::compareImages(preview, refined).rmse, 0.1);
+    const nlohmann::json report = json("r.json");
+    EXPECT_EQ(report["preview"]["promised_ms"], 500.0);
+    EXPECT_EQ(report["preview"]["kept"], report["preview"]["frame_ms"].get<double>() <= 500.0);
+    EXPECT_GT(report["ms"]["frame"][0], 0.0);
+    EXPECT_LE(report["preview"]["size"][0], 128);
+    expectRefused("render bucky:6 -o b.png --preview 0", {"--preview"});
+    expectRefused("render bucky:6 -o b.png --preview 20 --frames 3", {"--preview", "--frames"});
+}
+
+TEST_F(PictureOptions, CompareTellsStructure) {
+    Image flat(32, 32), stripes(32, 32);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x) {
+            flat.at(x, y) = {0.5f, 0.5f, 0.5f, 1};
+            stripes.at(x, y) = glm::vec4(glm::vec3(x / 4 % 2 ? 1.0f : 0.0f), 1.0f);
+        }
+    projection::writeImage(flat, path("flat.exr"));
+    projection::writeImage(stripes, path("stripes.exr"));
+    const nlohmann::json found = nlohmann::json::parse(tetralux("compare flat.exr stripes.exr --structure --json").out);
+    EXPECT_NEAR(found["structure"][0], 0.0, 1e-12);
+    EXPECT_GT(found["structure"][1], 0.1);
+    EXPECT_NE(tetralux("compare flat.exr stripes.exr --structure").out.find("structure "), std::string::npos);
+    EXPECT_EQ(tetralux("compare flat.exr stripes.exr").out.find("structure"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tetralux::tests

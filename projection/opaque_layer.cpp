@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -65,17 +66,17 @@ void OpaqueLayer::append(const mesh::SurfaceMesh& part, std::uint32_t object) {
     }
 }
 
-glm::dvec3 OpaqueLayer::surfaceColor(const OpaqueSurface& surface, const Triangle& triangle, const Ray& ray) const {
+glm::dvec3 OpaqueLayer::surfaceColor(const OpaqueSurface& surface, const Triangle& triangle,
+                                     const glm::dvec3& direction) const {
     if (surface.flat) return surface.color;
     const auto& [a, b, c] = triangle.corners;
     const glm::dvec3 across = glm::cross(positions_[b] - positions_[a], positions_[c] - positions_[a]);
     const double twiceArea = glm::length(across);
     if (twiceArea == 0) return surface.color;
-    const glm::dvec3 normal = across / (glm::dot(across, ray.direction) > 0 ? -twiceArea : twiceArea);
+    const glm::dvec3 normal = across / (glm::dot(across, direction) > 0 ? -twiceArea : twiceArea);
     double light = shading_.ambient;
-    if (!shading_.lit()) light += (1.0 - std::min(1.0, light)) * -glm::dot(normal, ray.direction);
-    for (const auto& source : shading_.lights)
-        light += std::max(0.0, glm::dot(normal, source.towards));
+    if (!shading_.lit()) light += (1.0 - std::min(1.0, light)) * -glm::dot(normal, direction);
+    for (const auto& source : shading_.lights) light += std::max(0.0, glm::dot(normal, source.towards));
     return surface.color * std::min(light, 1.0);
 }
 
@@ -147,39 +148,68 @@ private:
             forEachTile(boxes_[i], [&](std::size_t tile) { tiles_[tile].push_back(static_cast<std::uint32_t>(i)); });
     }
 
-    void renderTile(int tile) {
-        const std::vector<std::uint32_t>& members = tiles_[static_cast<std::size_t>(tile)];
+    /// The tile's rays and what each has met so far.
+    struct Tile {
+        PixelBox box;
+        std::array<RayFrame, tileSize * tileSize> rays;
+        struct Met {
+            double distance = infinite;
+            const Triangle* triangle = nullptr;
+            TriangleCrossing where{};
+        };
+        std::array<Met, tileSize * tileSize> met;
+
+        static std::size_t slot(const PixelBox& box, int x, int y) {
+            return static_cast<std::size_t>((y - box.y0) * tileSize + x - box.x0);
+        }
+    };
+
+    void renderTile(int number) {
+        const std::vector<std::uint32_t>& members = tiles_[static_cast<std::size_t>(number)];
         if (members.empty()) return;
-        const int x0 = tile % tilesAcross_ * tileSize, y0 = tile / tilesAcross_ * tileSize;
-        const PixelBox box{x0, y0, std::min(x0 + tileSize, frame_.width), std::min(y0 + tileSize, frame_.height)};
-        for (int y = box.y0; y < box.y1; ++y)
-            for (int x = box.x0; x < box.x1; ++x) renderPixel(x, y, members);
+        const auto tile = std::make_unique<Tile>();
+        const int x0 = number % tilesAcross_ * tileSize, y0 = number / tilesAcross_ * tileSize;
+        tile->box = {x0, y0, std::min(x0 + tileSize, frame_.width), std::min(y0 + tileSize, frame_.height)};
+        forEachPixel(tile->box,
+                     [&](int x, int y) { tile->rays[Tile::slot(tile->box, x, y)] = RayFrame(pixelRay(frame_, x, y)); });
+        for (const std::uint32_t index : members) meet(*tile, index);
+        forEachPixel(tile->box, [&](int x, int y) {
+            const std::size_t slot = Tile::slot(tile->box, x, y);
+            const auto& [distance, triangle, where] = tile->met[slot];
+            if (triangle != nullptr)
+                hits_[pixelNumber(x, y)] = {distance, glm::vec3(colorOf(*triangle, where, tile->rays[slot].direction))};
+        });
     }
 
-    void renderPixel(int x, int y, const std::vector<std::uint32_t>& members) {
-        const std::size_t pixel =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_.width) + static_cast<std::size_t>(x);
-        const Ray ray = pixelRay(frame_, x, y);
-        const RayFrame rayFrame(ray);
-        double nearest = infinite;
-        const Triangle* met = nullptr;
-        TriangleCrossing where{};
-        for (const std::uint32_t index : members) {
-            const PixelBox& box = boxes_[index];
-            if (x < box.x0 || x >= box.x1 || y < box.y0 || y >= box.y1) continue;
-            const Triangle& triangle = layer_.triangles_[index];
-            const std::array<RayPoint, 3> seen{rayFrame.see(layer_.positions_[triangle.corners[0]]),
-                                               rayFrame.see(layer_.positions_[triangle.corners[1]]),
-                                               rayFrame.see(layer_.positions_[triangle.corners[2]])};
+    template <class Use>
+    static void forEachPixel(const PixelBox& box, Use use) {
+        for (int y = box.y0; y < box.y1; ++y)
+            for (int x = box.x0; x < box.x1; ++x) use(x, y);
+    }
+
+    std::size_t pixelNumber(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_.width) + static_cast<std::size_t>(x);
+    }
+
+    /// Which of the tile's rays the triangle is the nearest to so far.
+    void meet(Tile& tile, std::uint32_t index) const {
+        const Triangle& triangle = layer_.triangles_[index];
+        const auto& [a, b, c] = triangle.corners;
+        const std::array<glm::dvec3, 3> corners{layer_.positions_[a], layer_.positions_[b], layer_.positions_[c]};
+        const PixelBox& box = boxes_[index];
+        const PixelBox part{std::max(box.x0, tile.box.x0), std::max(box.y0, tile.box.y0), std::min(box.x1, tile.box.x1),
+                            std::min(box.y1, tile.box.y1)};
+        forEachPixel(part, [&](int x, int y) {
+            const std::size_t slot = Tile::slot(tile.box, x, y);
+            const RayFrame& ray = tile.rays[slot];
+            const std::array<RayPoint, 3> seen{ray.see(corners[0]), ray.see(corners[1]), ray.see(corners[2])};
             const auto crossing = crossTriangle({seen[0].across, seen[1].across, seen[2].across}, triangle.corners);
-            if (!crossing) continue;
+            if (!crossing) return;
             const double t = crossing->blend(seen[0].t, seen[1].t, seen[2].t);
-            if (!(t > 0) || !(t < nearest) || (isSlice(triangle) && !inRange(pixel, t))) continue;
-            nearest = t;
-            met = &triangle;
-            where = *crossing;
-        }
-        if (met != nullptr) hits_[pixel] = {nearest, glm::vec3(colorOf(*met, where, ray))};
+            if (!(t > 0) || !(t < tile.met[slot].distance)) return;
+            if (isSlice(triangle) && !inRange(pixelNumber(x, y), t)) return;
+            tile.met[slot] = {t, &triangle, *crossing};
+        });
     }
 
     bool isSlice(const Triangle& triangle) const { return triangle.object < layer_.sliceCount_; }
@@ -190,9 +220,9 @@ private:
                (maps_.farthest.empty() || t <= maps_.farthest[pixel] + tolerance);
     }
 
-    glm::dvec3 colorOf(const Triangle& triangle, const TriangleCrossing& where, const Ray& ray) const {
+    glm::dvec3 colorOf(const Triangle& triangle, const TriangleCrossing& where, const glm::dvec3& direction) const {
         if (!isSlice(triangle))
-            return layer_.surfaceColor(layer_.surfaces_[triangle.object - layer_.sliceCount_], triangle, ray);
+            return layer_.surfaceColor(layer_.surfaces_[triangle.object - layer_.sliceCount_], triangle, direction);
         const auto& [a, b, c] = triangle.corners;
         const std::vector<double>& scalars = layer_.scalars_;
         const double scalar = layer_.association_ == mesh::Association::Cell

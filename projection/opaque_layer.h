@@ -35,7 +35,7 @@ private:
     };
 
     void append(const mesh::SurfaceMesh& part, std::uint32_t object);
-    glm::dvec3 surfaceColor(const OpaqueSurface& surface, const Triangle& triangle, const Ray& ray) const;
+    glm::dvec3 surfaceColor(const OpaqueSurface& surface, const Triangle& triangle, const glm::dvec3& direction) const;
 
     mesh::Association association_;  // of the mesh's scalar
     preint::TransferFunction transferFunction_;

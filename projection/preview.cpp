@@ -16,8 +16,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double aim = 0.7;  // of the promised time: frames of one scene differ by some tens of per cent
-constexpr int attempts = 4;
+constexpr double aim = 0.7;           // of the promised time: frames of one scene differ by some tens of per cent
+constexpr double largestBase = 0.35;  // of the promised time; above it a coarser mesh leaves more for pixels
+constexpr int attempts = 5;
 constexpr int leastSide = 16;                  // pixels of the longer side
 constexpr int gridSizes[] = {48, 32, 20, 12};  // points along each edge
 
@@ -63,7 +64,7 @@ PreviewRenderer::Cost PreviewRenderer::measure(const Camera& camera) {
 
 void PreviewRenderer::coarsen(const Camera& camera, double promisedMilliseconds, Cost& cost) {
     for (const int n : gridSizes) {
-        if (cost.base <= 0.5 * promisedMilliseconds) return;
+        if (cost.base <= largestBase * promisedMilliseconds) return;
         // five cells per box: no gain where the mesh has no more
         if (5.0 * n * n * n > 0.5 * static_cast<double>(scene_.mesh->cells.size())) continue;
         auto mesh = std::make_shared<const mesh::ScalarMesh>(mesh::coarseMesh(*scene_.mesh, n));
@@ -95,10 +96,12 @@ Preview PreviewRenderer::render(const Camera& camera, double promisedMillisecond
         Preview preview = attemptOf(smaller(camera, share), camera, promisedMilliseconds);
         const bool better = preview.kept ? !best.kept || preview.width > best.width : !best.kept;
         const double used = preview.frameMilliseconds / promisedMilliseconds;
-        if (better) best = std::move(preview);
+        if (better) best = preview;
         // too long, or less than half of the time was used though there are pixels left to draw
         if (best.kept && (used > 0.5 || share >= 1.0)) break;
-        share *= std::min(4.0, aim / used);
+        // by the same model, through this frame's time
+        const double wanted = aim * promisedMilliseconds - cost.base, spent = preview.frameMilliseconds - cost.base;
+        share *= wanted > 0 && spent > 0 ? std::clamp(wanted / spent, 0.25, 4.0) : used > aim ? 0.5 : 4.0;
     }
     return best;
 }

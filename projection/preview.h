@@ -18,9 +18,9 @@ struct Preview {
 };
 
 /// Draws previews of a scene. The cost of a frame is taken to be a + b·pixels, both measured on small pictures before
-/// (they count as preparation): a is a matter of the mesh, and where it alone takes half of the promised time, coarser
-/// and coarser meshes (mesh::coarseMesh) are tried; the pixels follow from b. A frame that took longer after all is
-/// drawn again with less.
+/// (they count as preparation): a is a matter of the mesh, and where it alone takes a third of the promised time,
+/// coarser and coarser meshes (mesh::coarseMesh) are tried; the pixels follow from b. A frame that took longer after
+/// all is drawn again with less.
 class PreviewRenderer {
 public:
     /// `engine` draws `scene` as it is and must outlive the renderer; `options` are those it was made with.

@@ -21,7 +21,7 @@ namespace {
 
 constexpr int usualVerifiedPixels = 1000;
 
-shading::DirectionalLight parseLight(const std::string& text) {
+shading::Light parseLight(const std::string& text) {
     const glm::dvec3 direction = parseVector("--light", text);
     const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
     if (largest == 0.0)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The GLSL side of preint/glsl_prelude.h: the same names for the same things.
 #define TETRALUX_GLSL_FUNCTION
+#define TETRALUX_GLSL_INOUT(type) inout type
 #define real float
 
 float select(bool condition, float ifTrue, float ifFalse) { return condition ? ifTrue : ifFalse; }

@@ -17,6 +17,7 @@
 #include <glm/vec4.hpp>
 
 #define TETRALUX_GLSL_FUNCTION inline
+#define TETRALUX_GLSL_INOUT(type) type&
 
 namespace tetralux::glsl {
 

@@ -36,6 +36,10 @@ TETRALUX_GLSL_FUNCTION real segmentLengthOrthographic(cell_real scale, real rhoI
     return abs(real(scale)) * (rhoIn - rhoOut);
 }
 
+// A number with the sign of s_f − s_b. The difference of the two scalars would lose it to rounding where a ray runs almost along a level
+// set. In orthographic views `across` is 0.
+TETRALUX_GLSL_FUNCTION real scalarFall(real across, cell_real perRho) { return perRho - across; }
+
 // Scalar at rho: value at c plus gradient, kept within the cell's own range, which rounding may leave in slivers. `across` is
 // perX·dx + perY·dy, the same at both ends of a segment.
 TETRALUX_GLSL_FUNCTION real scalarOfRatio(cell_real atReference, real across, cell_real perRho, real rho, real ratio,

@@ -163,6 +163,14 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
         storeFloats(gy * scale, &batch.normal[1][j]);
         storeFloats(gz * scale, &batch.normal[2][j]);
         storeFloats(magnitude, &batch.gradient[j]);
+        if (frame.lightInFull) {
+            wide perDeterminant = wide(1.0) / forms.determinant;
+            if constexpr (Orthographic) perDeterminant = perDeterminant * abs(reference.depth);
+            for (std::size_t k = 0; k < 4; ++k) {
+                storeFloats(forms.eye[k] * perDeterminant, &batch.eyeWeight[k][j]);
+                hn::StoreU(hn::LoadU(HalfIntTag(), &corners.point[k][j]), HalfIntTag(), &batch.corner[k][j]);
+            }
+        }
     }
     return special;
 }

@@ -105,6 +105,7 @@ private:
     bool allVisible_ = true;
     std::vector<mesh::CellIndex> visible_;
     std::optional<CpuOrder> orderKeys_;
+    std::shared_ptr<const shading::VertexLight> vertexLight_;
 
     // of the last camera
     std::optional<Camera> keptCamera_;
@@ -149,7 +150,12 @@ void CpuEngine::prepare() {
     frame_.cellData = mesh_.association == mesh::Association::Cell;
     frame_.transfer = &transfer_;
     frame_.scaleInvariant = integralOf(scene_.settings.mode) == preint::Integral::ScaleInvariant;
-    frame_.shading = &scene_.settings.shading;
+    const auto& shading = scene_.settings.shading;
+    vertexLight_ = vertexLightOf(scene_);
+    frame_.shading = &shading;
+    frame_.lightInFull = shading.lit() && !shading.plain();
+    frame_.lightModel = lightModelFloats(shading);
+    frame_.vertexLight = vertexLight_.get();
     frame_.earlyTermination = skips_.earlyTermination;
     frame_.ordered = ordered();
     const bool everyScalarCounts = frame_.kind == TileKind::Mip || frame_.kind == TileKind::Average;
@@ -193,8 +199,11 @@ void CpuEngine::setFrame(const CameraFrame& frame) {
     const double middle = glm::dot(mesh_.bounds.centre() - frame.eye, frame.forward) / units_.length;
     frame_.depthReference = frame.orthographic ? middle : std::max(middle, leastDepthReference);
     frame_.orderTolerance = static_cast<float>(orderRounding / (frame.orthographic ? 1.0 : frame_.depthReference));
+    const auto& shading = scene_.settings.shading;
+    frame_.axes = {glm::vec3(frame.right), glm::vec3(-frame.up), glm::vec3(frame.forward)};
+    frame_.fullLights = frameLights(shading, units_, frame);
     frame_.lights.clear();
-    for (const auto& light : scene_.settings.shading.lights) {
+    for (const auto& light : shading.lights) {
         const glm::dvec3 towards = glm::normalize(light.towards);
         frame_.lights.push_back({static_cast<float>(glm::dot(towards, frame.right)),
                                  static_cast<float>(-glm::dot(towards, frame.up)),

@@ -2,12 +2,8 @@
 /// \file
 /// Silhouettes and light for a block of segments: shading/cell_shading.glsl in SIMD lanes. Included once per
 /// instruction set; only kernels for scenes that ask for it hold any of this.
-#include <projection/cpu_segment.h>
-
-#include <hwy/contrib/math/math-inl.h>
-
-#include <projection/cpu_special_cell.h>
-#include <projection/cpu_tile.h>
+#include <projection/cpu_light.h>
+#include <projection/cpu_shading_vectors.h>
 
 #if defined(TETRALUX_CPU_SHADING_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TETRALUX_CPU_SHADING_H
@@ -18,44 +14,6 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace tetralux::projection::HWY_NAMESPACE {
-
-struct vec3 {
-    real x, y, z;
-    vec3() = default;
-    HWY_INLINE vec3(real a, real b, real c) : x(a), y(b), z(c) {}
-    HWY_INLINE explicit vec3(real a) : x(a), y(a), z(a) {}
-};
-HWY_INLINE vec3 operator+(vec3 a, vec3 b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-HWY_INLINE vec3 operator-(vec3 a, vec3 b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-HWY_INLINE vec3 operator-(vec3 a) {
-    return {-a.x, -a.y, -a.z};
-}
-HWY_INLINE vec3 operator*(real a, vec3 b) {
-    return {a * b.x, a * b.y, a * b.z};
-}
-HWY_INLINE vec3 operator*(vec3 a, real b) {
-    return b * a;
-}
-HWY_INLINE real dot(vec3 a, vec3 b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-HWY_INLINE vec3 select(mask m, vec3 a, vec3 b) {
-    return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
-}
-HWY_INLINE real exp(real a) {
-    return hn::Exp(FloatTag(), a.v);
-}
-HWY_INLINE real log(real a) {
-    return hn::Log(FloatTag(), a.v);
-}
-/// For a ≥ 0.
-HWY_INLINE real pow(real a, real exponent) {
-    return exp(exponent * log(max(a, real(1e-30f))));
-}
 
 #include <shading/cell_shading.glsl>
 
@@ -69,10 +27,12 @@ HWY_INLINE real opacityOfDepth(real depth) {
     return select(depth < pieceDepthLimit(), pieceOpacity(min(depth, pieceDepthLimit())), real(1.0f) - exp(-depth));
 }
 
-/// `towards`: the unit direction of each pixel's ray. `front`, `back`: scalars; `length` in scene lengths.
-template <bool ScaleInvariant>
+/// `towards`: the unit direction of each pixel's ray, (right, down, forward). `fall` has the sign of s_f − s_b.
+/// `middles()` and `place()` give where the segments' middles lie (cpu_light.h), which only light in full asks.
+template <bool ScaleInvariant, class Middles, class Place>
 HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& batch, std::size_t j,
-                                      const SegmentSink& sink, const Segments& segments, vec3 towards) {
+                                      const SegmentSink& sink, const Segments& segments, real fall, vec3 towards,
+                                      const Middles& middles, const Place& place) {
     const auto& shading = *frame.shading;
     const real magnitude(batch.gradient[j]);
     const vec3 normal{real(batch.normal[0][j]), real(batch.normal[1][j]), real(batch.normal[2][j])};
@@ -93,10 +53,13 @@ HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& b
     const real opacity = opacityOfDepth(depth);
     if (!shading.lit()) return {mean.x, mean.y, mean.z, opacity};
 
+    const real side = select(fall > real(0.0f), real(1.0f), select(fall < real(0.0f), real(-1.0f), real(0.0f)));
+    if (HWY_UNLIKELY(frame.lightInFull)) {
+        const vec3 lit = lightInFull(frame, batch, j, middles(), place(), {mean, opacity, side, towards});
+        return {lit.x, lit.y, lit.z, opacity};
+    }
     vec3 light = real(shading.ambient) * mean;
     if (batch.gradient[j] > 0) {
-        const real fall = segments.front - segments.back;
-        const real side = select(fall > real(0.0f), real(1.0f), select(fall < real(0.0f), real(-1.0f), real(0.0f)));
         const real transmitted = shading.transmission ? real(1.0f) - opacity : real(0.0f);
         for (const auto& source : frame.lights)
             light = light + lightTerm(mean, normal, -towards, vec3(real(source[0]), real(source[1]), real(source[2])),

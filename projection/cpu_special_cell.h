@@ -28,6 +28,8 @@ struct CellBatch {
     /// the tolerance of the order check.
     Lanes<float> nearnessPerRho, nearness, nearnessChecked;
     Lanes<float> normal[3], gradient;  ///< unit, as (right, down, forward); scene scalars per scene length
+    Lanes<float> eyeWeight[4];         ///< barycentric coordinates of the eye (orthographic: their rates per rho)
+    Lanes<std::int32_t> corner[4];     ///< point numbers, in the order of the planes
     alignas(64) std::int32_t begin[capacity][2], end[capacity][2];  ///< pixels (x, y) within the tile
 };
 

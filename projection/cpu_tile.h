@@ -16,6 +16,7 @@
 #include <projection/cell_setup.h>
 #include <projection/cpu_transfer.h>
 #include <projection/image.h>
+#include <projection/light_frame.h>
 #include <projection/scene.h>
 
 namespace tetralux::projection {
@@ -66,6 +67,12 @@ struct TileFrame {
     float orderTolerance;   ///< of nearness
     const shading::ShadingSettings* shading;
     std::vector<std::array<float, 3>> lights;  ///< towards each, as (right, down, forward)
+    // light in full (cpu_light.h): anything that ShadingSettings::plain() does not hold for
+    bool lightInFull;
+    LightModelFloats lightModel;
+    std::vector<FrameLight> fullLights;
+    std::array<glm::vec3, 3> axes;  ///< right, down, forward in world space
+    const shading::VertexLight* vertexLight;
     bool earlyTermination;
 };
 

@@ -257,7 +257,7 @@ private:
             storeAt(loadAt(px_.r + at) + mean * segments.length, px_.r + at);
             storeAt(t + segments.length, px_.t + at);
         } else {
-            drawShaded(j, at, x, y, rayLength, t, first, last, segments);
+            drawShaded(j, at, x, y, dx, dy, in, out, rayLength, t, first, last, segments);
         }
     }
 
@@ -272,8 +272,8 @@ private:
         }
     }
 
-    HWY_INLINE void drawShaded(std::size_t j, std::size_t at, int x, int y, real rayLength, real t, std::size_t first,
-                               std::size_t last, const Segments& segments) {
+    HWY_INLINE void drawShaded(std::size_t j, std::size_t at, int x, int y, real dx, real dy, real in, real out,
+                               real rayLength, real t, std::size_t first, std::size_t last, const Segments& segments) {
         SegmentSink sink;
         sink.r = sink.g = sink.b = sink.opacity = sink.smoothDepth = sink.otherDepth = real(0.0f);
         sink.t = real(1.0f);
@@ -285,7 +285,13 @@ private:
                        fromAxisY = laneY_ + real(y0_ + y - frame_.centre.y);
             towards = inverse * vec3(fromAxisX * pixel, fromAxisY * pixel, real(1.0f));
         }
-        ShadedSegment shaded = shadeSegment<ScaleInvariant>(frame_, batch_, j, sink, segments, towards);
+        const auto middles = [&]() HWY_ATTR { return segmentMiddles(dx, dy, in, out); };
+        const auto place = [&]() HWY_ATTR { return middlePlace(j, x, y, in, out, towards, rayLength); };
+        real across(0.0f);
+        if constexpr (!Orthographic) across = real(batch_.scalarPerX[j]) * dx + real(batch_.scalarPerY[j]) * dy;
+        const real fall = scalarFall(across, cell_real{batch_.scalarPerRho[j]});
+        const ShadedSegment shaded =
+            shadeSegment<ScaleInvariant>(frame_, batch_, j, sink, segments, fall, towards, middles, place);
         if constexpr (Kind == TileKind::FirstHit) {
             const mask hit = both(segments.live, shaded.opacity > real(0.0f));
             storeAt(select(hit, shaded.r, loadAt(px_.r + at)), px_.r + at);
@@ -298,6 +304,26 @@ private:
             storeAt(loadAt(px_.g + at) + shaded.g * ta, px_.g + at);
             storeAt(loadAt(px_.b + at) + shaded.b * ta, px_.b + at);
             storeAt(t - ta, px_.t + at);
+        }
+    }
+
+    HWY_INLINE static SegmentMiddles segmentMiddles(real dx, real dy, real in, real out) {
+        const real half(0.5f);
+        if constexpr (Orthographic) return {dx, dy, real(1.0f), half * (in + out)};
+        const real ratioIn = reciprocal(real(1.0f) + in), ratioOut = reciprocal(real(1.0f) + out);
+        return {dx, dy, half * (ratioIn + ratioOut), half * (ratioIn * in + ratioOut * out)};
+    }
+
+    /// The segments' middles from the eye: (right, down, forward), scene lengths.
+    HWY_INLINE vec3 middlePlace(std::size_t j, int x, int y, real in, real out, vec3 towards, real rayLength) const {
+        const real half(0.5f), scale(batch_.scale[j]);
+        if constexpr (Orthographic) {
+            const real pixel(frame_.pixel);
+            return {pixel * (laneX_ + real(x0_ + x - frame_.centre.x)),
+                    pixel * (laneY_ + real(y0_ + y - frame_.centre.y)), scale - abs(scale) * (half * (in + out))};
+        } else {
+            const real depth = scale * (half * (reciprocal(real(1.0f) + in) + reciprocal(real(1.0f) + out)));
+            return (depth * rayLength) * towards;
         }
     }
 

@@ -9,6 +9,7 @@
 #include <projection/engine.h>
 #include <projection/exact_repair.h>
 #include <projection/gl_engine.h>
+#include <projection/light_frame.h>
 #include <projection/reference_engine.h>
 #include <projection/view_maps.h>
 
@@ -39,7 +40,10 @@ std::vector<std::string> engineNames() {
 std::unique_ptr<Engine> makeEngine(const Scene& scene, const EngineOptions& options) {
     const std::string name = options.engine == "auto" ? engines.front().name : options.engine;
     for (const auto& engine : engines)
-        if (name == engine.name) return withViewMaps(withExactRepair(engine.make(scene, options), scene), scene);
+        if (name == engine.name) {
+            const Scene prepared = withVertexLight(scene);
+            return withViewMaps(withExactRepair(engine.make(prepared, options), prepared), prepared);
+        }
     throw std::runtime_error(fmt::format("engine '{}': there is no such engine; take one of auto, {}", options.engine,
                                          fmt::join(engineNames(), ", ")));
 }

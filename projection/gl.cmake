@@ -41,9 +41,11 @@ tetralux_embed_shaders(tetralux_projection FILES
   projection/gl_cell.vert
   projection/gl_cell_record.glsl
   projection/gl_full_screen.vert
+  projection/gl_light.glsl
   projection/gl_precision.glsl
   projection/gl_sampler_probe.frag
   projection/gl_segment.glsl
   projection/gl_table.glsl
   shading/cell_shading.glsl
+  shading/light_model.glsl
 )

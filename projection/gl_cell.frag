@@ -5,7 +5,8 @@
 //
 // Variants (0 or 1 unless said otherwise): TETRALUX_ORTHOGRAPHIC, TETRALUX_MODE (one of the numbers below), TETRALUX_SCALE_INVARIANT,
 // TETRALUX_INTERFACES (how many), TETRALUX_SUPPORTS (how many), TETRALUX_SILHOUETTE, TETRALUX_LIGHTS (how many), TETRALUX_GRADIENT (silhouette or
-// lights), TETRALUX_LENGTH (whether anything reads the segment's length).
+// lights), TETRALUX_FULL_LIGHT (anything but the plain lights of shading/cell_shading.glsl), TETRALUX_ATTRIBUTES (vertices have some),
+// TETRALUX_LENGTH (whether anything reads the segment's length).
 #define TETRALUX_MODE_VOLUME 0
 #define TETRALUX_MODE_MIP 1
 #define TETRALUX_MODE_AVERAGE 2
@@ -18,7 +19,6 @@ flat in vec4 gradient;  // unit normal, magnitude in scene units
 layout(location = 0) out vec4 result;
 
 uniform vec2 centre;        // pixel coordinates of the optical axis
-uniform vec3 viewForward, viewRight, viewDown;  // world space; right and down per pixel (perspective: at depth 1)
 
 // rho where the ray enters (x) and leaves (y) the cell, at the sample dx, dy pixels beside the reference point. Nothing is inside
 // where x ≤ y.
@@ -87,7 +87,15 @@ void main() {
     view = -normalize(viewForward + (pixel.x - centre.x) * viewRight + (pixel.y - centre.y) * viewDown);
 #endif
 #endif
-    vec4 perOpacity = shadedSegment(front, back, len, view, normalAndMagnitude);
+#if TETRALUX_FULL_LIGHT
+    setMiddle(cell, rho, dx, dy, pixel - centre);
+#endif
+    float across = 0.0;
+#if !TETRALUX_ORTHOGRAPHIC
+    across = cell.scalarPerX * dx + cell.scalarPerY * dy;
+#endif
+    float side = sign(scalarFall(across, cell.scalarPerRho));
+    vec4 perOpacity = shadedSegment(front, back, len, side, view, normalAndMagnitude);
 #if TETRALUX_MODE == TETRALUX_MODE_FIRST_HIT
     if (!segmentShows(front, back)) discard;
     result = vec4(perOpacity.rgb, 1.0);

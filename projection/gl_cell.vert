@@ -12,6 +12,12 @@ layout(location = 6) in vec4 record5;
 #if TETRALUX_GRADIENT
 layout(location = 7) in vec4 cellGradient;
 #endif
+#if TETRALUX_ATTRIBUTES
+layout(location = 8) in vec4 cellEyeWeight;
+layout(location = 9) in uvec4 cellPoints;
+flat out vec4 eyeWeight;
+flat out uvec4 points;
+#endif
 
 flat out vec4 cell0, cell1, cell2, cell3, cell4, cell5;
 #if TETRALUX_GRADIENT
@@ -31,5 +37,9 @@ void main() {
     cell5 = record5;
 #if TETRALUX_GRADIENT
     gradient = cellGradient;
+#endif
+#if TETRALUX_ATTRIBUTES
+    eyeWeight = cellEyeWeight;
+    points = cellPoints;
 #endif
 }

@@ -49,8 +49,8 @@ std::string vectorLiterals(const std::vector<Vector>& vectors) {
     return text;
 }
 
-GlDefines variant(const RenderSettings& settings, std::size_t supports, const preint::PreintegrationTable* table,
-                  bool orthographic, bool linearSampler) {
+GlDefines variant(const RenderSettings& settings, const shading::VertexLight& vertexLight, std::size_t supports,
+                  const preint::PreintegrationTable* table, bool orthographic, bool linearSampler) {
     const auto& shading = settings.shading;
     const bool looksUp = table != nullptr;
     const bool scaleInvariant = integralOf(settings.mode) == preint::Integral::ScaleInvariant;
@@ -65,6 +65,13 @@ GlDefines variant(const RenderSettings& settings, std::size_t supports, const pr
     defines.set("TETRALUX_SILHOUETTE", silhouette);
     defines.set("TETRALUX_LIGHTS", lights);
     defines.set("TETRALUX_GRADIENT", silhouette || lights > 0);
+    const bool full = lights > 0 && !shading.plain();
+    defines.set("TETRALUX_FULL_LIGHT", full);
+    defines.set("TETRALUX_ATTRIBUTES", full ? vertexLight.stride / 4 : 0);
+    defines.set("TETRALUX_NORMAL_AT", vertexLight.normalAt);
+    defines.set("TETRALUX_TENSOR_AT", vertexLight.tensorAt);
+    defines.set("TETRALUX_SHADOW_AT", vertexLight.shadowAt);
+    defines.set("TETRALUX_REFLECTANCE", static_cast<int>(shading.reflectance));
     defines.set("TETRALUX_LENGTH", length);
     if (!looksUp) return defines;
     const glm::dvec2 zone = shaderZone(table->zones.front());
@@ -85,8 +92,9 @@ GlDefines variant(const RenderSettings& settings, std::size_t supports, const pr
 }
 
 std::vector<std::string_view> fragmentFiles(bool looksUp) {
-    std::vector<std::string_view> files{"preint/glsl_prelude.glsl", "projection/gl_precision.glsl",
-                                        "projection/cell_interval.glsl", "projection/gl_cell_record.glsl"};
+    std::vector<std::string_view> files{"preint/glsl_prelude.glsl",      "projection/gl_precision.glsl",
+                                        "projection/cell_interval.glsl", "projection/gl_cell_record.glsl",
+                                        "shading/light_model.glsl",      "projection/gl_light.glsl"};
     if (looksUp) {
         files.insert(files.end(), {"projection/gl_table.glsl", "preint/table_lookup.glsl", "preint/gather_segment.glsl",
                                    "shading/cell_shading.glsl", "projection/gl_segment.glsl"});
@@ -138,18 +146,47 @@ void GlTableTexture::bind(GLuint unit) const {
     gl_.BindTexture(target_, texture_);
 }
 
+GlVertexLight::GlVertexLight(const GlFunctions& gl, const shading::VertexLight& light) : gl_(gl) {
+    GLint largest = 0;
+    gl_.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largest);
+    const std::size_t texels = light.values.size() / 4;
+    if (texels > static_cast<std::size_t>(largest))
+        throw std::runtime_error(fmt::format(
+            "light at vertices of {} texels: this OpenGL renderer takes {}; use --engine cpu", texels, largest));
+    gl_.GenBuffers(1, &buffer_);
+    gl_.BindBuffer(GL_TEXTURE_BUFFER, buffer_);
+    gl_.BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(light.values.size() * sizeof(float)), light.values.data(),
+                   GL_STATIC_DRAW);
+    gl_.GenTextures(1, &texture_);
+    gl_.BindTexture(GL_TEXTURE_BUFFER, texture_);
+    gl_.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer_);
+    checkGl(gl_, "light at vertices");
+}
+
+GlVertexLight::~GlVertexLight() {
+    gl_.DeleteTextures(1, &texture_);
+    gl_.DeleteBuffers(1, &buffer_);
+}
+
+void GlVertexLight::bind(GLuint unit) const {
+    gl_.ActiveTexture(GL_TEXTURE0 + unit);
+    gl_.BindTexture(GL_TEXTURE_BUFFER, texture_);
+}
+
 GlCellProgram::GlCellProgram(const GlFunctions& gl, const RenderSettings& settings,
-                             const preint::TransferFunction& function, const preint::PreintegrationTable* table,
-                             bool orthographic, bool linearSampler)
+                             const shading::VertexLight& vertexLight, const preint::TransferFunction& function,
+                             const preint::PreintegrationTable* table, bool orthographic, bool linearSampler)
     : gl_(gl),
       program_(
-          gl, variant(settings, extinctionSupport(function).size(), table, orthographic, linearSampler),
+          gl, variant(settings, vertexLight, extinctionSupport(function).size(), table, orthographic, linearSampler),
           {{GL_VERTEX_SHADER, {"projection/gl_cell.vert"}}, {GL_FRAGMENT_SHADER, fragmentFiles(table != nullptr)}}),
       ndcPerPixel_(program_.uniform("ndcPerPixel")),
       centre_(program_.uniform("centre")),
       viewForward_(program_.uniform("viewForward")),
       viewRight_(program_.uniform("viewRight")),
-      viewDown_(program_.uniform("viewDown")) {
+      viewDown_(program_.uniform("viewDown")),
+      lightPlace_(program_.uniform("lightPlace")),
+      lightFade_(program_.uniform("lightFade")) {
     program_.use();
     setConstants(settings, extinctionSupport(function), table);
     checkGl(gl_, "shader constants");
@@ -169,6 +206,7 @@ void GlCellProgram::setConstants(const RenderSettings& settings, const std::vect
     gl_.Uniform1f(program_.uniform("ambient"), static_cast<float>(shading.ambient));
     gl_.Uniform1f(program_.uniform("exponent"), static_cast<float>(shading.exponent));
     gl_.Uniform1f(program_.uniform("transmission"), shading.transmission ? 1.0f : 0.0f);
+    setLightModel(shading);
     if (table == nullptr) return;
 
     gl_.Uniform1i(program_.uniform("tableTexels"), 0);
@@ -189,6 +227,35 @@ void GlCellProgram::setConstants(const RenderSettings& settings, const std::vect
     gl_.Uniform1fv(program_.uniform("interfaceValue"), count, values.data());
     gl_.Uniform4fv(program_.uniform("interfaceLayer"), count, reinterpret_cast<const float*>(layers.data()));
     gl_.Uniform1iv(program_.uniform("zoneAfter"), count + 1, zoneAfter.data());
+}
+
+void GlCellProgram::setLightModel(const shading::ShadingSettings& shading) const {
+    const LightModelFloats model = lightModelFloats(shading);
+    const glm::vec3 specular[2] = {model.frontSpecular, model.backSpecular};
+    gl_.Uniform3fv(program_.uniform("specularOf"), 2, &specular[0].x);
+    gl_.Uniform2f(program_.uniform("exponentOf"), model.frontExponent, model.backExponent);
+    gl_.Uniform4f(program_.uniform("diffuseAndSpecular"), model.diffuse, model.specular, model.diffuseThrough,
+                  model.specularThrough);
+    gl_.Uniform3f(program_.uniform("kappaGammaAsymmetry"), model.kappa, model.gamma, model.asymmetry);
+    gl_.Uniform3f(program_.uniform("ambientColor"), model.ambient.x, model.ambient.y, model.ambient.z);
+    gl_.Uniform1i(program_.uniform("vertexLight"), 1);
+}
+
+void GlCellProgram::setLights(const std::vector<FrameLight>& lights, const SceneUnits& units) const {
+    std::vector<glm::vec3> places, colors, fades;
+    std::vector<GLint> kinds;
+    for (const FrameLight& light : lights) {
+        places.push_back(light.place);
+        colors.push_back(light.color);
+        fades.push_back(light.fade);
+        kinds.push_back(light.kind);
+    }
+    const auto count = static_cast<GLsizei>(lights.size());
+    gl_.Uniform3fv(lightPlace_, count, reinterpret_cast<const float*>(places.data()));
+    gl_.Uniform3fv(lightFade_, count, reinterpret_cast<const float*>(fades.data()));
+    gl_.Uniform3fv(program_.uniform("lightColor"), count, reinterpret_cast<const float*>(colors.data()));
+    gl_.Uniform1iv(program_.uniform("lightKind"), count, kinds.data());
+    gl_.Uniform1f(program_.uniform("perLength"), static_cast<float>(1.0 / units.length));
 }
 
 void GlCellProgram::use(const CameraFrame& frame) const {

@@ -10,6 +10,7 @@
 #include <projection/camera.h>
 #include <projection/cell_setup.h>
 #include <projection/gl_program.h>
+#include <projection/light_frame.h>
 #include <projection/scene.h>
 
 namespace tetralux::projection {
@@ -35,23 +36,45 @@ private:
     GLuint texture_ = 0;
 };
 
+/// What vertices carry for light, as a buffer that shaders read by point number.
+class GlVertexLight {
+public:
+    /// \throws std::runtime_error when the renderer has no buffer of that size.
+    GlVertexLight(const GlFunctions& gl, const shading::VertexLight& light);
+    ~GlVertexLight();
+    GlVertexLight(const GlVertexLight&) = delete;
+    GlVertexLight& operator=(const GlVertexLight&) = delete;
+
+    void bind(GLuint unit) const;
+
+private:
+    const GlFunctions& gl_;
+    GLuint buffer_ = 0, texture_ = 0;
+};
+
 class GlCellProgram {
 public:
     /// `function` and `table` in scene units; `table` may be null for modes without. `linearSampler`: the texture
     /// unit interpolates (gl_sampler_probe.h), else the shader does.
-    GlCellProgram(const GlFunctions& gl, const RenderSettings& settings, const preint::TransferFunction& function,
-                  const preint::PreintegrationTable* table, bool orthographic, bool linearSampler);
+    GlCellProgram(const GlFunctions& gl, const RenderSettings& settings, const shading::VertexLight& vertexLight,
+                  const preint::TransferFunction& function, const preint::PreintegrationTable* table, bool orthographic,
+                  bool linearSampler);
 
     /// Makes it current for drawing from that camera.
     void use(const CameraFrame& frame) const;
+
+    /// The lights of that camera, for programs of light in full; after use().
+    void setLights(const std::vector<FrameLight>& lights, const SceneUnits& units) const;
 
 private:
     void setConstants(const RenderSettings& settings, const std::vector<glm::dvec2>& support,
                       const preint::PreintegrationTable* table) const;
 
+    void setLightModel(const shading::ShadingSettings& shading) const;
+
     const GlFunctions& gl_;
     GlProgram program_;
-    GLint ndcPerPixel_, centre_, viewForward_, viewRight_, viewDown_;
+    GLint ndcPerPixel_, centre_, viewForward_, viewRight_, viewDown_, lightPlace_, lightFade_;
 };
 
 }  // namespace tetralux::projection

@@ -36,11 +36,12 @@ std::vector<GLuint> chunkIndices(std::size_t slots) {
 }  // namespace
 
 void writeCell(const GlCellLayout& layout, const CellOutline& outline, const CellRecord& record,
-               const CellGradient& gradient, float* target) {
+               const CellGradient& gradient, const CellCorners& cellCorners, float* target) {
     const glm::vec2 corners[4] = {outline[1], outline[2], outline[3], outline[0]};
     std::memcpy(target, corners, sizeof(corners));
     std::memcpy(target + 8, &record, sizeof(record));
     if (layout.gradient) std::memcpy(target + 32, &gradient, sizeof(gradient));
+    if (layout.attributes) std::memcpy(target + 36, &cellCorners, sizeof(cellCorners));
 }
 
 GlCellStream::GlCellStream(const GlFunctions& gl, GlCellLayout layout) : gl_(gl), layout_(layout) {
@@ -56,13 +57,18 @@ GlCellStream::GlCellStream(const GlFunctions& gl, GlCellLayout layout) : gl_(gl)
         gl_.GenBuffers(1, &buffer.vertices);
         gl_.BindBuffer(GL_ARRAY_BUFFER, buffer.vertices);
         gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bufferBytes), nullptr, GL_STREAM_DRAW);
-        const GLuint vectors = layout_.gradient ? 7 : 6;
+        const GLuint vectors = layout_.attributes ? 8 : layout_.gradient ? 7 : 6;
         const auto offset = [](std::size_t bytes) { return reinterpret_cast<const void*>(bytes); };
         gl_.EnableVertexAttribArray(0);
         gl_.VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, slotBytes, nullptr);
         for (GLuint i = 0; i < vectors; ++i) {
             gl_.EnableVertexAttribArray(1 + i);
             gl_.VertexAttribPointer(1 + i, 4, GL_FLOAT, GL_FALSE, slotBytes, offset(slotBytes + i * 4 * sizeof(float)));
+        }
+        if (layout_.attributes) {
+            gl_.EnableVertexAttribArray(1 + vectors);
+            gl_.VertexAttribIPointer(1 + vectors, 4, GL_UNSIGNED_INT, slotBytes,
+                                     offset(slotBytes + vectors * 4 * sizeof(float)));
         }
     }
     gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(GLuint)), indices.data(),

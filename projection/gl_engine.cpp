@@ -46,6 +46,7 @@ struct GlState {
     std::optional<GlFrameTarget> target;
     std::optional<GlCellStream> stream;
     std::optional<GlTableTexture> table;
+    std::optional<GlVertexLight> vertexLight;
     std::array<std::unique_ptr<GlCellProgram>, 2> programs;  // perspective, orthographic: made when first needed
 };
 
@@ -102,6 +103,7 @@ class GlEngine final : public Engine {
 public:
     GlEngine(const Scene& scene, const EngineOptions& options)
         : scene_(scene),
+          vertexLight_(vertexLightOf(scene)),
           units_(sceneUnits(*scene.mesh)),
           function_(inSceneUnits(scene.transferFunction, units_, integralOf(scene.settings.mode))),
           context_(makeGlContext(options.context)) {
@@ -111,6 +113,10 @@ public:
             table_ = buildTable(scene, function_, units_);
             findVisibleCells();
             prepare_["table"] = watch.lap();
+            const auto& shading = scene.settings.shading;
+            fullLight_ = shading.lit() && !shading.plain();
+            layout_.attributes = fullLight_ && vertexLight_->any();
+            prepare_["light"] = watch.lap();
             sorter_.emplace(*scene.mesh, scene.settings.order);
             prepare_["adjacency"] = watch.lap();
         } else {
@@ -151,10 +157,14 @@ private:
     std::vector<mesh::CellIndex> drawingOrder(const CameraFrame& frame, FrameReport& report) const;
     std::vector<DrawnCell> selectCells(const CellProjector& projector, const std::vector<mesh::CellIndex>& order,
                                        FrameReport& report) const;
+    CellCorners cellCorners(const CellProjector& projector, const CellRecord& record, const CameraFrame& frame,
+                            mesh::CellIndex cell) const;
     void writeCells(const CellProjector& projector, const CameraFrame& frame, double margin, const DrawnCell* cells,
                     std::size_t count, float* target) const;
 
     Scene scene_;
+    std::shared_ptr<const shading::VertexLight> vertexLight_;
+    bool fullLight_ = false;
     SceneUnits units_;
     preint::TransferFunction function_;  // scene units
     std::optional<preint::PreintegrationTable> table_;
@@ -176,6 +186,7 @@ void GlEngine::makeState() {
     if (table_) {
         state_->table.emplace(gl, *table_);
         state_->linearSampler = linearSamplerIsExact(gl);
+        if (layout_.attributes) state_->vertexLight.emplace(gl, *vertexLight_);
     }
 }
 
@@ -193,8 +204,8 @@ void GlEngine::findVisibleCells() {
 const GlCellProgram& GlEngine::program(bool orthographic) {
     auto& made = state_->programs[orthographic ? 1 : 0];
     if (!made) {
-        made = std::make_unique<GlCellProgram>(*state_->gl, scene_.settings, function_, table(), orthographic,
-                                               state_->linearSampler);
+        made = std::make_unique<GlCellProgram>(*state_->gl, scene_.settings, *vertexLight_, function_, table(),
+                                               orthographic, state_->linearSampler);
     }
     return *made;
 }
@@ -262,6 +273,18 @@ std::vector<GlEngine::DrawnCell> GlEngine::selectCells(const CellProjector& proj
     return selected;
 }
 
+CellCorners GlEngine::cellCorners(const CellProjector& projector, const CellRecord& record, const CameraFrame& frame,
+                                  mesh::CellIndex cell) const {
+    const std::array<double, 4> eye = projector.eyeCoordinates(cell);
+    const double perRho = frame.orthographic ? std::abs(static_cast<double>(record.scale)) * units_.length : 1.0;
+    CellCorners corners;
+    for (std::size_t k = 0; k < 4; ++k) {
+        corners.eyeWeight[k] = static_cast<float>(eye[k] * perRho);
+        corners.point[k] = scene_.mesh->cells[cell][k];
+    }
+    return corners;
+}
+
 void GlEngine::writeCells(const CellProjector& projector, const CameraFrame& frame, double margin,
                           const DrawnCell* cells, std::size_t count, float* target) const {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 256), [&](const auto& range) {
@@ -271,8 +294,10 @@ void GlEngine::writeCells(const CellProjector& projector, const CameraFrame& fra
             const auto corners = projector.corners(cell);
             if (corners) outline = cellOutline(*corners, margin);
             if (!corners || !liesNear(outline, frame)) outline = rectangleOutline(rect);
-            writeCell(layout_, outline, projector.record(cell, rect),
-                      layout_.gradient ? projector.gradient(cell) : CellGradient{}, target + i * layout_.floats());
+            const CellRecord record = projector.record(cell, rect);
+            writeCell(layout_, outline, record, layout_.gradient ? projector.gradient(cell) : CellGradient{},
+                      layout_.attributes ? cellCorners(projector, record, frame, cell) : CellCorners{},
+                      target + i * layout_.floats());
         }
     });
 }
@@ -293,7 +318,9 @@ Image GlEngine::render(const View& view, FrameReport& report) {
     const GlFunctions& gl = *state_->gl;
     state_->target->begin(frame.width, frame.height, clearValue(mode()));
     if (state_->table) state_->table->bind(0);
+    if (state_->vertexLight) state_->vertexLight->bind(1);
     program(frame.orthographic).use(frame);
+    if (fullLight_) program(frame.orthographic).setLights(frameLights(scene_.settings.shading, units_, frame), units_);
     setBlending();
     stages["draw"] = watch.lap();
     const double margin = outlineMargin(gl, frame);

@@ -5,7 +5,7 @@
 #if TETRALUX_SUPPORTS
 uniform vec2 support[TETRALUX_SUPPORTS];  // scalars with extinction
 #endif
-#if TETRALUX_LIGHTS
+#if TETRALUX_LIGHTS && !TETRALUX_FULL_LIGHT
 uniform vec3 lights[TETRALUX_LIGHTS];     // towards each, unit, world space
 uniform float ambient, exponent, transmission;
 #endif
@@ -28,8 +28,8 @@ bool segmentShows(float front, float back) {
 }
 
 // Colour per α and α of a segment in view direction `view` (unit, towards the eye); `gradient` is the unit normal and
-// |g|, both zero where the scalar is constant.
-vec4 shadedSegment(float front, float back, float len, vec3 view, vec4 gradient) {
+// |g|, both zero where the scalar is constant; `side` the sign of s_f − s_b.
+vec4 shadedSegment(float front, float back, float len, float side, vec3 view, vec4 gradient) {
     Gathered segment = gatherSegment(front, back, len);
     float depth = segment.smoothDepth + segment.otherDepth;
 #if TETRALUX_SILHOUETTE
@@ -43,12 +43,14 @@ vec4 shadedSegment(float front, float back, float len, vec3 view, vec4 gradient)
 #endif
     float opacity = opacityOf(depth);
     vec3 color = segment.meanColor;
-#if TETRALUX_LIGHTS
+#if TETRALUX_FULL_LIGHT
+    color = lightInFull(segment.meanColor, opacity, side, view, gradient);
+#elif TETRALUX_LIGHTS
     color *= ambient;
     if (gradient.w > 0.0) {
         float transmitted = transmission * (1.0 - opacity);
         for (int i = 0; i < TETRALUX_LIGHTS; ++i) {
-            color += lightTerm(segment.meanColor, gradient.xyz, view, lights[i], sign(front - back), transmitted, exponent);
+            color += lightTerm(segment.meanColor, gradient.xyz, view, lights[i], side, transmitted, exponent);
         }
     }
 #endif

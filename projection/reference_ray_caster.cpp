@@ -16,7 +16,9 @@
 #include <glm/geometric.hpp>
 
 #include <projection/cell_shading.h>
+#include <projection/light_frame.h>
 #include <projection/ray_triangle.h>
+#include <projection/reference_light.h>
 
 namespace tetralux::projection {
 
@@ -228,7 +230,8 @@ struct ReferenceRayCaster::Pass {
     }
 };
 
-ReferenceRayCaster::ReferenceRayCaster(const Scene& scene) : scene_(scene), exact_(scene.transferFunction) {}
+ReferenceRayCaster::ReferenceRayCaster(const Scene& scene)
+    : scene_(withVertexLight(scene)), exact_(scene.transferFunction) {}
 
 Image ReferenceRayCaster::render(const View& view, RayCastCounts& counts) const {
     Image image(view.camera.width, view.camera.height);
@@ -313,16 +316,19 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
     const double opacity = -std::expm1(-depth);
     if (!shading.lit()) return {meanColor * opacity, opacity};
 
-    glm::dvec3 light = shading.ambient * meanColor;
+    const double scalarStep = segment.scalarIn - segment.scalarOut;
     const bool cut = segment.cutInFront && cutNormal != glm::dvec3(0);
-    if (magnitude > 0 || cut) {
-        const double scalarStep = segment.scalarIn - segment.scalarOut;
-        const double side = cut ? 1.0 : scalarStep > 0 ? 1.0 : scalarStep < 0 ? -1.0 : 0.0;
-        for (const auto& source : shading.lights)
-            light += glsl::lightTerm(meanColor, cut ? cutNormal : normal, -ray.direction, source.towards, side,
-                                     shading.transmission ? 1.0 - opacity : 0.0, shading.exponent);
-    }
-    return {light * opacity, opacity};
+    SegmentToLight lit;
+    lit.cell = segment.cell;
+    lit.middle = ray.origin + (0.5 * segment.tIn + 0.5 * segment.tOut) * ray.direction;
+    lit.direction = ray.direction;
+    lit.fromEye = 0.5 * segment.tIn + 0.5 * segment.tOut;
+    lit.normal = cut ? cutNormal : normal;
+    lit.cut = cut;
+    lit.side = cut ? 1.0 : scalarStep > 0 ? 1.0 : scalarStep < 0 ? -1.0 : 0.0;
+    lit.color = meanColor;
+    lit.opacity = opacity;
+    return {litColor(scene, lit) * opacity, opacity};
 }
 
 }  // namespace

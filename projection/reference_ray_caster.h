@@ -61,7 +61,7 @@ private:
     glm::dvec4 composite(const Ray& ray, const preint::ExactIntegral& exact, const glm::dvec3& cutNormal,
                          std::vector<RaySegment>& segments) const;
 
-    Scene scene_;
+    Scene scene_;  // with what its vertices carry for light
     preint::ExactIntegral exact_;
 };
 

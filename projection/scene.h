@@ -11,6 +11,7 @@
 #include <preint/transfer_function.h>
 #include <projection/pixel_maps.h>
 #include <shading/lights.h>
+#include <shading/vertex_light.h>
 
 namespace tetralux::projection {
 
@@ -39,6 +40,8 @@ struct Scene {
     RenderSettings settings;
     /// Clip planes, slices, opaque surfaces: asked in turn for every frame.
     std::vector<std::shared_ptr<const PixelMapSource>> mapSources = {};
+    /// Kept for several engines (withVertexLight in light_frame.h); where there is none each makes its own.
+    std::shared_ptr<const shading::VertexLight> vertexLight{};
 };
 
 }  // namespace tetralux::projection

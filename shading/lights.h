@@ -1,26 +1,95 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
 namespace tetralux::shading {
 
-/// A light infinitely far away, of intensity 1, not attenuated.
-struct DirectionalLight {
-    glm::dvec3 towards{0, 0, 1};  ///< unit vector towards the light, world space
+/// A light. Colours are display values times intensity; what reaches a point at distance d (mesh units) is
+/// color/(attenuation.x + attenuation.y·d + attenuation.z·d²).
+struct Light {
+    enum class Kind {
+        Directional,  ///< infinitely far away: no distance, no attenuation
+        Point,
+        Head  ///< at the eye; of orthographic views, behind every pixel
+    };
+    glm::dvec3 towards{0, 0, 1};  ///< directional: unit vector towards the light, world space
+    Kind kind = Kind::Directional;
+    glm::dvec3 color{1};
+    glm::dvec3 position{0};           ///< point: mesh units
+    glm::dvec3 attenuation{1, 0, 0};  ///< constant, per mesh unit, per mesh unit squared
+};
+
+/// How the specular lobe is formed. What light does from the far side of a segment (transmission) is what it would do
+/// from the mirrored direction, so that a lobe stands about the direction in which light goes straight on.
+enum class Reflectance {
+    Phong,       ///< about 2n(n·l) − l
+    BlinnPhong,  ///< half-way vector about n
+    Ward,        ///< exponents κ(λ₂/λ₁)^γ along the major direction and κ across it (Ament & Dachsbacher 2015)
+    Lafortune,   ///< u = 2(1 − exp(γ(1 − λ₂/λ₁))) − 1 along it, v = −1 across, 1 along n
+    HenyeyGreenstein  ///< phase function instead of diffuse and specular light; needs no gradient
+};
+
+/// Whose normal is lit; silhouettes and the side of a segment are those of the cell's gradient in any case.
+enum class Normals {
+    Cell,   ///< that of the cell's gradient
+    Smooth  ///< gradients fitted at the vertices (least squares), interpolated to the segment's middle
+};
+
+/// Of one side of a two-sided material. The front is the side of larger scalars, that which n points to.
+struct MaterialSide {
+    glm::dvec3 specular{1};          ///< C_spec
+    std::optional<double> exponent;  ///< nothing: ShadingSettings::exponent
+};
+
+struct Material {
+    double diffuse = 1, specular = 1;                          ///< factors of reflection
+    double diffuseTransmission = 1, specularTransmission = 1;  ///< factors of transmission
+    MaterialSide front, back;                                  ///< transmission takes their mean
+    double phaseAsymmetry = 0.3;                               ///< Henyey–Greenstein's g, −1 … 1
+};
+
+/// Anisotropy of the field's level sets about each vertex (shading/anisotropy.h), and what lobes make of it.
+struct AnisotropySettings {
+    double radius = 4.0;     ///< of the neighbourhood, in mean edge lengths of the mesh
+    double interval = 0.05;  ///< half-width in scalar, as a share of the field's range
+    int samples = 11;        ///< points that stand for one cell
+    int smoothing = 0;       ///< how often tensors are averaged with those of neighbouring vertices
+    double kappa = 16.0;     ///< κ: exponent of an isotropic Ward lobe
+    double gamma = 10.0;     ///< γ: how strongly anisotropy counts
+};
+
+struct ShadowSettings {
+    bool on = false;
+    double softness = 0.0;  ///< radius of an area light: point lights in mesh units, directional as a slope; 0: hard
 };
 
 struct ShadingSettings {
-    bool silhouette = false;               ///< Kraus 2005, Equations 15 and 17
-    std::vector<DirectionalLight> lights;  ///< none: colours are emitted as they are
-    double ambient = 0.1;                  ///< intensity of ambient light, used when there are lights
-    double exponent = 32.0;                ///< of the specular lobes
-    bool transmission = true;              ///< diffuse and specular light through the cell
+    bool silhouette = false;     ///< Kraus 2005, Equations 15 and 17
+    std::vector<Light> lights;   ///< none: colours are emitted as they are
+    double ambient = 0.1;        ///< intensity of ambient light, used when there are lights
+    glm::dvec3 ambientColor{1};  ///< times `ambient`
+    double exponent = 32.0;      ///< of the specular lobes, where a material's side has none of its own
+    bool transmission = true;    ///< diffuse and specular light through the cell
+    Reflectance reflectance = Reflectance::Phong;
+    Normals normals = Normals::Cell;
+    Material material;
+    AnisotropySettings anisotropy;
+    ShadowSettings shadows;
 
     bool lit() const { return !lights.empty(); }
     bool needsGradient() const { return silhouette || lit(); }
+    bool needsAnisotropy() const {
+        return lit() && (reflectance == Reflectance::Ward || reflectance == Reflectance::Lafortune);
+    }
+    bool needsShadows() const;  ///< a light that is not at the eye, and shadows on
+
+    /// Whether lights and material are those of shading/cell_shading.glsl's lightTerm: directional, intensity 1, the
+    /// cell's normal, C_spec = 1, Phong. Engines have a faster way for it.
+    bool plain() const;
 };
 
 }  // namespace tetralux::shading

@@ -106,7 +106,7 @@ TEST(GlCellRecord, VertexBlockHasTheDocumentedOrder) {
     const CellGradient gradient{{50, 51, 52}, 53};
     const GlCellLayout layout{true};
     std::vector<float> block(layout.floats());
-    writeCell(layout, outline, record, gradient, block.data());
+    writeCell(layout, outline, record, gradient, {}, block.data());
     std::vector<float> expected{2, 3, 4, 5, 6, 7, 0, 1};
     expected.insert(expected.end(), values.begin(), values.end());
     expected.insert(expected.end(), {50, 51, 52, 53});

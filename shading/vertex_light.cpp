@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <shading/vertex_light.h>
+
+#include <algorithm>
+
+#include <mesh/point_cells.h>
+#include <shading/vertex_gradients.h>
+
+namespace tetralux::shading {
+
+VertexLight vertexLight(const mesh::ScalarMesh& mesh, const ShadingSettings& settings) {
+    VertexLight light;
+    if (!settings.lit()) return light;
+    int floats = 0;
+    const auto take = [&](int count) {
+        floats += count;
+        return floats - count;
+    };
+    if (settings.normals == Normals::Smooth) light.normalAt = take(3);
+    if (settings.needsShadows()) light.shadowAt = take(static_cast<int>(settings.lights.size()));
+    if (floats == 0) return light;
+    light.stride = (floats + 3) / 4 * 4;
+    light.values.assign(mesh.positions.size() * static_cast<std::size_t>(light.stride), 0.0f);
+
+    const mesh::PointCells around(mesh.cells, mesh.positions.size());
+    const std::vector<glm::dvec3> gradients = vertexGradients(mesh, around);
+    for (std::size_t point = 0; point < gradients.size(); ++point) {
+        float* values = light.of(point);
+        if (light.normalAt >= 0)
+            for (int axis = 0; axis < 3; ++axis)
+                values[light.normalAt + axis] = static_cast<float>(gradients[point][axis]);
+        if (light.shadowAt >= 0) std::fill_n(values + light.shadowAt, settings.lights.size(), 1.0f);
+    }
+    return light;
+}
+
+}  // namespace tetralux::shading

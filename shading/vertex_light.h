@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// What light needs to know at the vertices: computed once, kept, interpolated linearly to the middle of each segment.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <mesh/tet_mesh.h>
+#include <shading/lights.h>
+
+namespace tetralux::shading {
+
+/// `stride` floats per point, a multiple of four. Each `…At` is the place of an attribute among them, −1: not there.
+struct VertexLight {
+    int stride = 0;
+    int normalAt = -1;  ///< three: gradient (vertex_gradients.h)
+    int tensorAt = -1;  ///< six: xx, yy, zz, xy, xz, yz (anisotropy.h)
+    int shadowAt = -1;  ///< one per light of ShadingSettings: transmittance to it
+    std::vector<float> values;
+
+    bool any() const { return stride > 0; }
+    float* of(std::size_t point) { return values.data() + point * static_cast<std::size_t>(stride); }
+    const float* of(std::size_t point) const { return values.data() + point * static_cast<std::size_t>(stride); }
+};
+
+/// The attributes that `settings` need, shadows left at 1 (they take a transfer function: projection/light_shadows.h).
+VertexLight vertexLight(const mesh::ScalarMesh& mesh, const ShadingSettings& settings);
+
+}  // namespace tetralux::shading

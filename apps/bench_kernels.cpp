@@ -57,7 +57,7 @@ BENCHMARK(cellSetup)->Arg(32)->Unit(benchmark::kMillisecond);
 /// All of a frame's visibility order, camera moved.
 void visibilityOrder(benchmark::State& state) {
     const auto& mesh = *buckyOf(static_cast<int>(state.range(0)));
-    const projection::VisibilitySorter sorter(mesh);
+    projection::VisibilitySorter sorter(mesh);
     int frame = 0;
     for (auto _ : state) benchmark::DoNotOptimize(sorter.sort(frameOf(mesh, ++frame)));
     countCells(state, mesh.cells.size());

@@ -79,6 +79,13 @@ json previewJson(const projection::Preview& preview, double promised) {
             {"grid", preview.gridPoints}};
 }
 
+/// How many frames sorted anew, kept the last frame's order or repaired it.
+json upkeepJson(const RenderRecord& record) {
+    json counts = json::object();
+    for (const FrameReport& frame : record.frames) counts[frame.orderUpkeep] = counts.value(frame.orderUpkeep, 0) + 1;
+    return counts;
+}
+
 json cameraJson(const projection::Camera& camera) {
     json result = {
         {"eye", vectorJson(camera.eye)}, {"target", vectorJson(camera.target)}, {"up", vectorJson(camera.up)}};
@@ -119,7 +126,12 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
           {"skipped", skippedCells(record, first)}}},
         {"points_merged", record.mesh.pointsMerged},
         {"defects", defectsJson(record.mesh)},
-        {"order", {{"method", first.orderMethod}, {"sorted", first.cellsSorted}, {"cyclic", first.orderCycles}}},
+        {"order",
+         {{"method", first.orderMethod},
+          {"sorted", first.cellsSorted},
+          {"cyclic", first.orderCycles},
+          {"failing_faces", first.failingFaces},
+          {"frames", upkeepJson(record)}}},
         {"fragments", first.fragments},
         {"ms", timesJson(record, engine)},
         {"pixels", {{"repaired", repaired}, {"wrong", wrong}}},

@@ -10,6 +10,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <projection/cell_setup.h>
@@ -106,6 +107,11 @@ struct Event {
     bool enters;
 };
 
+struct PixelEvent {
+    Event event;
+    std::uint32_t pixel;  // of the band
+};
+
 /// A ray that leaves one cell and enters the next within this share of its depth passes straight on: the two sides of a
 /// face that is not shared in the data give depths that differ by rounding.
 constexpr double coincidence = 1e-9;
@@ -125,13 +131,14 @@ public:
 
     Reentry run() {
         tbb::enumerable_thread_specific<Reentry> found;
-        tbb::parallel_for(0, bandCount(), [&](int band) { scanBand(band, found.local()); });
+        tbb::enumerable_thread_specific<BandEvents> events;
+        tbb::parallel_for(0, bandCount(), [&](int band) { scanBand(band, events.local(), found.local()); });
         Reentry all;
         for (Reentry& part : found) {
             all.edges.insert(all.edges.end(), part.edges.begin(), part.edges.end());
             all.doubtfulPixels.insert(all.doubtfulPixels.end(), part.doubtfulPixels.begin(), part.doubtfulPixels.end());
         }
-        std::sort(all.edges.begin(), all.edges.end());
+        tbb::parallel_sort(all.edges.begin(), all.edges.end());
         all.edges.erase(std::unique(all.edges.begin(), all.edges.end()), all.edges.end());
         std::sort(all.doubtfulPixels.begin(), all.doubtfulPixels.end());
         return all;
@@ -155,8 +162,8 @@ private:
         }
         if (!front) return {0, 0, 0, 0};
         if (behind && !frame_.orthographic) return {0, 0, frame_.width, frame_.height};
-        low += frame_.centre - sampleShift;
-        high += frame_.centre - sampleShift;
+        low += frame_.centre - frame_.sampleShift;
+        high += frame_.centre - frame_.sampleShift;
         auto inside = [](double v, int limit) {
             return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(limit)));
         };
@@ -166,70 +173,122 @@ private:
 
     void binFaces() {
         bands_.resize(static_cast<std::size_t>(bandCount()));
+        std::vector<PixelRect> rects(boundary_.size());
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rects.size(), 2048), [&](const auto& range) {
+            for (std::size_t i = range.begin(); i != range.end(); ++i) rects[i] = rectOf(boundary_[i]);
+        });
         for (std::uint32_t i = 0; i < boundary_.size(); ++i) {
-            const PixelRect rect = rectOf(boundary_[i]);
+            const PixelRect& rect = rects[i];
             if (rect.empty()) continue;
             for (int band = rect.y0 / bandRows; band <= (rect.y1 - 1) / bandRows; ++band)
                 bands_[static_cast<std::size_t>(band)].push_back({i, rect});
         }
     }
 
-    void scanBand(int band, Reentry& found) const {
+    /// What the rays of a band meet, pixel by pixel; kept from band to band for its memory.
+    struct BandEvents {
+        std::vector<PixelEvent> met;
+        std::vector<std::uint32_t> start;  // per pixel of the band, and the end
+        std::vector<Event> sorted;
+    };
+
+    void scanBand(int band, BandEvents& events, Reentry& found) const {
         const int y0 = band * bandRows, y1 = std::min(y0 + bandRows, frame_.height);
-        std::vector<std::vector<Event>> pixels(static_cast<std::size_t>(frame_.width) *
-                                               static_cast<std::size_t>(y1 - y0));
+        events.met.clear();
         for (const auto& [face, rect] : bands_[static_cast<std::size_t>(band)])
-            for (int y = std::max(rect.y0, y0); y < std::min(rect.y1, y1); ++y)
-                for (int x = rect.x0; x < rect.x1; ++x)
-                    meet(boundary_[face], x, y,
-                         pixels[static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(frame_.width) +
-                                static_cast<std::size_t>(x)]);
-        for (std::size_t i = 0; i < pixels.size(); ++i)
-            if (!pixels[i].empty())
-                walk(pixels[i],
-                     static_cast<std::uint32_t>(static_cast<std::size_t>(y0) * static_cast<std::size_t>(frame_.width) +
-                                                i),
-                     found);
+            meet(boundary_[face], rect, y0, y1, events.met);
+        if (events.met.empty()) return;
+
+        const auto pixelCount = static_cast<std::size_t>(frame_.width) * static_cast<std::size_t>(y1 - y0);
+        events.start.assign(pixelCount + 1, 0);
+        for (const PixelEvent& e : events.met) ++events.start[e.pixel + 1];
+        std::partial_sum(events.start.begin(), events.start.end(), events.start.begin());
+        events.sorted.resize(events.met.size());
+        for (const PixelEvent& e : events.met) events.sorted[events.start[e.pixel]++] = e.event;
+        const auto first = static_cast<std::uint32_t>(y0) * static_cast<std::uint32_t>(frame_.width);
+        std::uint32_t begin = 0;
+        for (std::uint32_t pixel = 0; pixel < pixelCount; ++pixel) {
+            const std::uint32_t end = events.start[pixel];  // filling moved it to where the pixel's events end
+            if (end > begin) walk(events.sorted.data() + begin, events.sorted.data() + end, first + pixel, found);
+            begin = end;
+        }
     }
 
-    /// Appends where the ray of pixel (x, y) passes the face, by the sides of its edges.
-    void meet(const BoundaryFace& face, int x, int y, std::vector<Event>& events) const {
+    /// The side of an edge, linear in the pixel: (a − p·a.z) × (b − p·b.z) = a × b − p × (a.z·b − b.z·a). Taken in the
+    /// order of the point numbers, so that both faces of an edge get the same number to the bit, and about a pixel near
+    /// the edge, so that nothing cancels where faces are small.
+    struct EdgeForm {
+        glm::dvec2 origin, rate;
+        double constant;
+
+        double at(double x, double y) const { return constant + rate.x * (x - origin.x) + rate.y * (y - origin.y); }
+    };
+
+    EdgeForm sideOf(mesh::PointIndex from, mesh::PointIndex to) const {
+        const bool ascending = from < to;
+        glm::dvec3 a = points_[ascending ? from : to], b = points_[ascending ? to : from];
+        if (frame_.orthographic) a.z = b.z = 1.0;
+        EdgeForm form;
+        form.origin = a.z > 0 ? glm::round(glm::dvec2(a) / a.z) : glm::dvec2(0);
+        const glm::dvec2 p = glm::dvec2(a) - form.origin * a.z, q = glm::dvec2(b) - form.origin * b.z;
+        const double sign = ascending ? 1.0 : -1.0;
+        form.constant = sign * edgeSide(p, q);
+        form.rate = sign * glm::dvec2(p.y * b.z - q.y * a.z, q.x * a.z - p.x * b.z);
+        return form;
+    }
+
+    /// Appends where rays of the rows [y0, y1) pass the face, by the sides of its edges.
+    void meet(const BoundaryFace& face, const PixelRect& rect, int y0, int y1, std::vector<PixelEvent>& met) const {
         const auto p = facePoints(mesh_, face);
-        const glm::dvec2 at = glm::dvec2(x, y) + sampleShift - frame_.centre;
-        std::array<glm::dvec2, 3> q;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const glm::dvec3& v = points_[p[k]];
-            q[k] = glm::dvec2(v) - at * (frame_.orthographic ? 1.0 : v.z);
-        }
-        std::array<double, 3> w;
-        int positive = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto a = (k + 1) % 3, b = (k + 2) % 3;
-            w[k] = edgeSide(q[a], q[b]);
-            positive += passesPositive(q[a], q[b], p[a], p[b]) ? 1 : 0;
-        }
-        const double sum = w[0] + w[1] + w[2];
-        if ((positive != 0 && positive != 3) || sum == 0) return;
-        double depth = 0;
-        for (std::size_t k = 0; k < 3; ++k) depth += w[k] / sum * points_[p[k]].z;
-        if (depth <= 0) return;
-        // camera space is right-handed with the view along z: outside faces the eye where the area is negative
-        const bool enters = positive == 0;
-        events.push_back({enters ? depth : depth * (1.0 - coincidence), face.cell, enters});
+        const std::array side{sideOf(p[1], p[2]), sideOf(p[2], p[0]), sideOf(p[0], p[1])};
+        const glm::dvec3 depths(points_[p[0]].z, points_[p[1]].z, points_[p[2]].z);
+        const glm::dvec2 shift = frame_.sampleShift - frame_.centre;
+        for (int y = std::max(rect.y0, y0); y < std::min(rect.y1, y1); ++y)
+            for (int x = rect.x0; x < rect.x1; ++x) {
+                const glm::dvec2 at(x + shift.x, y + shift.y);
+                const glm::dvec3 w(side[0].at(at.x, at.y), side[1].at(at.x, at.y), side[2].at(at.x, at.y));
+                int positive = (w.x > 0 ? 1 : 0) + (w.y > 0 ? 1 : 0) + (w.z > 0 ? 1 : 0);
+                if (w.x == 0 || w.y == 0 || w.z == 0) positive = settledSides(p, at, w);
+                const double sum = w.x + w.y + w.z;
+                if ((positive != 0 && positive != 3) || sum == 0) continue;
+                const double depth = glm::dot(w, depths) / sum;
+                if (depth <= 0) continue;
+                // camera space is right-handed with the view along z: outside faces the eye where the area is negative
+                const bool enters = positive == 0;
+                met.push_back({{enters ? depth : depth * (1.0 - coincidence), face.cell, enters},
+                               static_cast<std::uint32_t>((y - y0) * frame_.width + x)});
+            }
     }
 
-    static void walk(std::vector<Event>& events, std::uint32_t pixel, Reentry& found) {
-        std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
+    /// How many of the three sides count as positive where some are exactly zero.
+    int settledSides(const std::array<mesh::PointIndex, 3>& p, const glm::dvec2& at, const glm::dvec3& w) const {
+        std::array<glm::dvec2, 3> q;
+        for (std::size_t k = 0; k < 3; ++k)
+            q[k] = glm::dvec2(points_[p[k]]) - at * (frame_.orthographic ? 1.0 : points_[p[k]].z);
+        int positive = 0;
+        for (int k = 0; k < 3; ++k) {
+            const auto a = static_cast<std::size_t>((k + 1) % 3), b = static_cast<std::size_t>((k + 2) % 3);
+            positive += w[k] > 0 || (w[k] == 0 && zeroSideIsPositive(q[a], q[b], p[a], p[b])) ? 1 : 0;
+        }
+        return positive;
+    }
+
+    static void walk(Event* begin, Event* end, std::uint32_t pixel, Reentry& found) {
+        std::sort(begin, end, [](const Event& a, const Event& b) {
             return a.depth != b.depth ? a.depth < b.depth : !a.enters && b.enters;
         });
-        bool inside = !events.front().enters;  // the eye is in the mesh
+        bool inside = !begin->enters;  // the eye is in the mesh
         bool clean = true, hasLeft = false;
         mesh::CellIndex lastLeft = 0;
-        for (const Event& event : events) {
+        for (Event* at = begin; at != end; ++at) {
+            const Event& event = *at;
             clean &= event.enters != inside;
             inside = event.enters;
             if (event.enters) {
-                if (hasLeft && lastLeft != event.cell) found.edges.emplace_back(lastLeft, event.cell);
+                const std::pair edge{lastLeft, event.cell};
+                // most pixels tell what their neighbour told
+                if (hasLeft && lastLeft != event.cell && (found.edges.empty() || found.edges.back() != edge))
+                    found.edges.push_back(edge);
             } else {
                 lastLeft = event.cell;
                 hasLeft = true;

@@ -28,6 +28,9 @@ struct CameraFrame {
     glm::dvec2 centre;                       ///< pixel coordinates of the optical axis: ((W − 1)/2, (H − 1)/2)
     bool orthographic = false;
     int width = 0, height = 0;
+    /// Fast engines sample this much beside the pixel's centre (pixels), as EdgeOnPlanes says; cells' numbers include
+    /// it.
+    glm::dvec2 sampleShift{0x1p-32, 0x1p-33};
 };
 
 struct Ray {

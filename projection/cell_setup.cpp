@@ -102,8 +102,8 @@ SkipReason CellProjector::bounds(mesh::CellIndex cell, PixelRect& rect) const {
         for (std::size_t j = 0; j < 4; ++j)  // where the edge from behind comes to the front
             if (v[j].z > clip) include(pixelOf(glm::mix(v[k], v[j], (clip - v[k].z) / (v[j].z - v[k].z))));
     }
-    low -= sampleShift;
-    high -= sampleShift;
+    low -= frame_.sampleShift;
+    high -= frame_.sampleShift;
     if (!(high.x >= 0 && high.y >= 0 && low.x <= frame_.width - 1 && low.y <= frame_.height - 1))
         return SkipReason::OutsideView;
     auto clampTo = [](double value, int limit) { return std::clamp(value, 0.0, static_cast<double>(limit)); };
@@ -121,7 +121,7 @@ std::optional<std::array<glm::dvec2, 4>> CellProjector::corners(mesh::CellIndex 
     for (std::size_t k = 0; k < 4; ++k) {
         const glm::dvec3& point = cameraPoints_[mesh_.cells[cell][k]];
         if (!frame_.orthographic && point.z < nearestDepthShare * deepest) return std::nullopt;
-        result[k] = pixelOf(point) - sampleShift;
+        result[k] = pixelOf(point) - frame_.sampleShift;
     }
     return result;
 }
@@ -232,7 +232,7 @@ CellRecord CellProjector::record(mesh::CellIndex cell, const PixelRect& rect) co
     record.scalarHigh = static_cast<float>(std::max({s[0], s[1], s[2], s[3]}));
     record.scale = static_cast<float>(depth / units_.length);
 
-    const glm::dvec2 pixel = image + frame_.centre - sampleShift;
+    const glm::dvec2 pixel = image + frame_.centre - frame_.sampleShift;
     record.pixelX = static_cast<float>(std::round(pixel.x));
     record.pixelY = static_cast<float>(std::round(pixel.y));
     record.fractionX = static_cast<float>(pixel.x - std::round(pixel.x));

@@ -30,11 +30,6 @@ SceneUnits sceneUnits(const mesh::ScalarMesh& mesh);
 preint::TransferFunction inSceneUnits(const preint::TransferFunction& function, const SceneUnits& units,
                                       preint::Integral integral);
 
-/// Fast engines sample this much beside the pixel's centre (pixels): a ray that would run exactly within faces (views
-/// along the axes of a grid) then runs beside them, in the same cells for every engine. The picture changes by less
-/// than 1e-5 of its contrast from pixel to pixel. It is part of CellRecord's fractions; engines need not add it.
-inline constexpr glm::dvec2 sampleShift{0x1p-14, 0x1p-15};
-
 /// One projected cell. Std430 layout of six vec4; the shader's struct mirrors it. The reference point c is the
 /// centroid, or for cells that reach behind the eye a point of the visible rectangle at half their largest depth.
 struct CellRecord {
@@ -84,6 +79,10 @@ public:
 
     /// The cell's projected corners in pixel coordinates when all four lie in front of the eye; nothing otherwise.
     std::optional<std::array<glm::dvec2, 4>> corners(mesh::CellIndex cell) const;
+
+    /// On which side of a face's plane the eye is: positive on the inner one, 0 within the plane (orthographic: the
+    /// face's extent along the view). Both cells of a face get the same number with opposite signs.
+    double eyeSide(mesh::CellIndex cell, int face) const { return eyeSide(mesh_.cells[cell], face); }
 
     /// True when a face of the cell shows its outside to the eye (perspective: eye on the outer side of its plane).
     /// Both cells of a face give opposite answers.

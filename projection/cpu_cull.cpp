@@ -27,7 +27,7 @@ void projectPoints(const mesh::ScalarMesh& mesh, const SceneUnits& units, const 
     const glm::dvec3 right = frame.right * (frame.orthographic ? 1.0 / pixel : perLength / pixel),
                      down = -frame.up * (frame.orthographic ? 1.0 / pixel : perLength / pixel),
                      forward = frame.forward * perLength;
-    const glm::dvec2 centre = frame.centre - sampleShift;
+    const glm::dvec2 centre = frame.centre - frame.sampleShift;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 4096), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             const glm::dvec3 fromEye = mesh.positions[i] - frame.eye;

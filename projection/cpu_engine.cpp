@@ -18,6 +18,7 @@
 #include <projection/cpu_cull.h>
 #include <projection/cpu_order.h>
 #include <projection/cpu_tile.h>
+#include <projection/edge_on_planes.h>
 #include <projection/transfer_support.h>
 
 namespace tetralux::projection {
@@ -46,6 +47,7 @@ public:
           skips_(skips),
           mesh_(*scene.mesh),
           units_(sceneUnits(mesh_)),
+          edgeOnPlanes_(mesh_),
           transfer_(inSceneUnits(scene.transferFunction, units_, integralOf(scene.settings.mode))),
           arena_(scene.settings.threads > 0 ? scene.settings.threads : tbb::task_arena::automatic) {
         arena_.execute([&] { prepare(); });
@@ -68,6 +70,8 @@ public:
         report.cellsDrawn = cellsDrawn_;
         report.orderMethod = order_.method;
         report.orderCycles = order_.cyclicCells;
+        report.orderUpkeep = order_.method == "none" ? "none" : order_.upkeep;
+        report.failingFaces = order_.failingFaces;
         report.frameMilliseconds = millisecondsSince(start);
         return image;
     }
@@ -96,6 +100,7 @@ private:
     const CpuSkips skips_;
     const mesh::ScalarMesh& mesh_;
     const SceneUnits units_;
+    const EdgeOnPlanes edgeOnPlanes_;
     const CpuTransfer transfer_;
     tbb::task_arena arena_;
     std::map<std::string, double> prepareMilliseconds_;
@@ -194,7 +199,7 @@ void CpuEngine::setFrame(const CameraFrame& frame) {
     frame_.orthographic = frame.orthographic;
     frame_.width = frame.width;
     frame_.height = frame.height;
-    frame_.centre = frame.centre - sampleShift;
+    frame_.centre = frame.centre - frame.sampleShift;
     frame_.pixel = glm::length(frame.perPixelRight) / (frame.orthographic ? units_.length : 1.0);
     const double middle = glm::dot(mesh_.bounds.centre() - frame.eye, frame.forward) / units_.length;
     frame_.depthReference = frame.orthographic ? middle : std::max(middle, leastDepthReference);
@@ -218,7 +223,7 @@ void CpuEngine::makeLists(const Camera& camera, FrameReport& report) {
         stages[stage] += millisecondsSince(start);
         start = Clock::now();
     };
-    const CameraFrame frame = cameraFrame(camera);
+    const CameraFrame frame = sampledFrame(camera, edgeOnPlanes_);
     projectPoints(mesh_, units_, frame, points_);
     setFrame(frame);
     finish("project");

@@ -15,10 +15,10 @@ namespace tetralux::projection {
 /// What one frame's order is worth, and its keys.
 struct CpuFrameOrder {
     std::string method = "none";
-    std::uint64_t cyclicCells = 0;
+    std::string upkeep = "sorted";
+    std::uint64_t failingFaces = 0, cyclicCells = 0;
     std::vector<std::uint32_t> doubtfulPixels;
-    KeySource keys;
-    std::vector<std::uint32_t> places;  ///< what `keys` points to, where there is no certificate
+    KeySource keys;  ///< points to what the CpuOrder keeps, until it is asked again
 };
 
 /// Keys of cells: linear ones (order_keys.h) where the sorter has them, so that only what survived culling is sorted;
@@ -27,11 +27,10 @@ class CpuOrder {
 public:
     CpuOrder(const mesh::ScalarMesh& mesh, OrderMethod method);
 
-    CpuFrameOrder orderOf(const CameraFrame& frame) const;
+    CpuFrameOrder orderOf(const CameraFrame& frame);
 
 private:
-    const std::size_t cellCount_;
-    const VisibilitySorter sorter_;
+    VisibilitySorter sorter_;
 };
 
 }  // namespace tetralux::projection

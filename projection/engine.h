@@ -27,7 +27,9 @@ struct FrameReport {
     std::uint64_t tilesRetired = 0;                     ///< tiles that were opaque before their cells were drawn
     std::string orderMethod;                            ///< how visibility order was found; "none" when not needed
     std::uint64_t cellsSorted = 0;
-    std::uint64_t orderCycles = 0;  ///< cells left in cycles of the visibility relation
+    std::string orderUpkeep = "none";  ///< "sorted", "kept" or "repaired" of the last frame's; "none" when not needed
+    std::uint64_t failingFaces = 0;    ///< inner faces that fail the certificate of power order, of a convex mesh
+    std::uint64_t orderCycles = 0;     ///< cells left in cycles of the visibility relation
     /// Pixels (y·width + x, ascending) that the engine could not order with certainty; makeEngine's engines have them
     /// composed exactly afterwards and count them as repaired.
     std::vector<std::uint32_t> doubtfulPixels;

@@ -11,6 +11,7 @@
 #include <projection/gl_engine.h>
 #include <projection/light_frame.h>
 #include <projection/reference_engine.h>
+#include <projection/scalar_range.h>
 #include <projection/view_maps.h>
 
 namespace tetralux::projection {
@@ -37,7 +38,8 @@ std::vector<std::string> engineNames() {
     return names;
 }
 
-std::unique_ptr<Engine> makeEngine(const Scene& scene, const EngineOptions& options) {
+std::unique_ptr<Engine> makeEngine(const Scene& wanted, const EngineOptions& options) {
+    const Scene scene = withScalarsInRange(wanted);
     const std::string name = options.engine == "auto" ? engines.front().name : options.engine;
     for (const auto& engine : engines)
         if (name == engine.name) {

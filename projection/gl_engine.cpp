@@ -13,6 +13,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
+#include <projection/edge_on_planes.h>
 #include <projection/gl_cell_program.h>
 #include <projection/gl_cell_stream.h>
 #include <projection/gl_context.h>
@@ -105,6 +106,7 @@ public:
         : scene_(scene),
           vertexLight_(vertexLightOf(scene)),
           units_(sceneUnits(*scene.mesh)),
+          edgeOnPlanes_(*scene.mesh),
           function_(inSceneUnits(scene.transferFunction, units_, integralOf(scene.settings.mode))),
           context_(makeGlContext(options.context)) {
         Stopwatch watch;
@@ -154,7 +156,7 @@ private:
     void findVisibleCells();
     const GlCellProgram& program(bool orthographic);
     void setBlending() const;
-    std::vector<mesh::CellIndex> drawingOrder(const CameraFrame& frame, FrameReport& report) const;
+    std::vector<mesh::CellIndex> drawingOrder(const CameraFrame& frame, FrameReport& report);
     std::vector<DrawnCell> selectCells(const CellProjector& projector, const std::vector<mesh::CellIndex>& order,
                                        FrameReport& report) const;
     CellCorners cellCorners(const CellProjector& projector, const CellRecord& record, const CameraFrame& frame,
@@ -166,6 +168,7 @@ private:
     std::shared_ptr<const shading::VertexLight> vertexLight_;
     bool fullLight_ = false;
     SceneUnits units_;
+    EdgeOnPlanes edgeOnPlanes_;
     preint::TransferFunction function_;  // scene units
     std::optional<preint::PreintegrationTable> table_;
     std::vector<std::uint8_t> cellShows_;  // whether the transfer function shows anything of a cell
@@ -224,21 +227,22 @@ void GlEngine::setBlending() const {
 }
 
 // Back to front, or as they come where order does not matter.
-std::vector<mesh::CellIndex> GlEngine::drawingOrder(const CameraFrame& frame, FrameReport& report) const {
+std::vector<mesh::CellIndex> GlEngine::drawingOrder(const CameraFrame& frame, FrameReport& report) {
     if (!sorter_) {
         report.orderMethod = "none";
         std::vector<mesh::CellIndex> cells(scene_.mesh->cells.size());
         std::iota(cells.begin(), cells.end(), mesh::CellIndex{0});
         return cells;
     }
-    VisibilityOrder order = sorter_->sort(frame);
+    const VisibilityOrder& order = sorter_->sort(frame);
     report.wrongUnknown = scene_.settings.order == OrderMethod::Centroid;
     report.orderMethod = order.method;
     report.cellsSorted = order.frontToBack.size();
     report.orderCycles = order.cyclicCells;
-    report.doubtfulPixels = std::move(order.doubtfulPixels);
-    std::reverse(order.frontToBack.begin(), order.frontToBack.end());
-    return std::move(order.frontToBack);
+    report.orderUpkeep = order.upkeep;
+    report.failingFaces = sorter_->failingFaces();
+    report.doubtfulPixels = order.doubtfulPixels;
+    return {order.frontToBack.rbegin(), order.frontToBack.rend()};
 }
 
 // The cells that cover pixels and show something, in the same order. What the order leaves out lies behind the eye.
@@ -306,7 +310,7 @@ Image GlEngine::render(const View& view, FrameReport& report) {
     checkPixelMaps(view);
     Stopwatch whole, watch;
     auto& stages = report.stageMilliseconds;
-    const CameraFrame frame = cameraFrame(view.camera);
+    const CameraFrame frame = sampledFrame(view.camera, edgeOnPlanes_);
     const std::vector<mesh::CellIndex> order = drawingOrder(frame, report);
     stages["sort"] = watch.lap();
 

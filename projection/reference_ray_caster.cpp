@@ -117,6 +117,35 @@ preint::TransferFunction scaledExtinction(preint::TransferFunction function, dou
     return function;
 }
 
+/// Some pixels of an image, or all: answers at once whether a rectangle holds any (Crow's summed-area table, 1984).
+class WantedPixels {
+public:
+    WantedPixels() = default;  ///< all
+    WantedPixels(const std::vector<std::uint32_t>& pixels, int width, int height)
+        : columns_(static_cast<std::size_t>(width) + 1), sums_(columns_ * (static_cast<std::size_t>(height) + 1)) {
+        const auto w = static_cast<std::uint32_t>(width);
+        for (std::uint32_t pixel : pixels) sums_[(pixel / w + 1) * columns_ + pixel % w + 1] = 1;
+        for (std::size_t i = columns_ + 1; i < sums_.size(); ++i)
+            if (i % columns_ != 0) sums_[i] += sums_[i - 1] + sums_[i - columns_] - sums_[i - columns_ - 1];
+    }
+
+    bool all() const { return sums_.empty(); }
+
+    /// Of [x0, x1) × [y0, y1) within the image.
+    bool any(int x0, int y0, int x1, int y1) const {
+        if (all()) return true;
+        if (x0 >= x1 || y0 >= y1) return false;
+        auto sum = [&](int x, int y) {
+            return sums_[static_cast<std::size_t>(y) * columns_ + static_cast<std::size_t>(x)];
+        };
+        return sum(x1, y1) - sum(x0, y1) - sum(x1, y0) + sum(x0, y0) != 0;
+    }
+
+private:
+    std::size_t columns_ = 0;
+    std::vector<std::uint32_t> sums_;  // wanted pixels above and left of a corner
+};
+
 }  // namespace
 
 /// One rendering of one camera: the image is halved until one pixel is left, the cells with it.
@@ -125,7 +154,7 @@ struct ReferenceRayCaster::Pass {
     const CameraFrame frame;
     const PixelMaps* const maps;
     Image& image;
-    std::vector<bool> wanted;        // empty: all pixels
+    WantedPixels wanted;
     std::vector<glm::dvec3> points;  // camera space: pixels·depth (or pixels when orthographic) twice, and depth
     std::vector<std::atomic<bool>> met;
     std::atomic<std::uint64_t> segmentCount{0}, overlapCount{0};
@@ -164,31 +193,49 @@ struct ReferenceRayCaster::Pass {
         return result;
     }
 
-    bool anyWanted(int x0, int y0, int x1, int y1) const {
-        if (wanted.empty()) return true;
-        for (int y = y0; y < y1; ++y)
-            for (int x = x0; x < x1; ++x)
-                if (wanted[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
-                           static_cast<std::size_t>(x)])
-                    return true;
-        return false;
+    /// Whether the cell may meet a ray that is asked for: by the corners' bounds where all are in front of the eye.
+    bool mayMeet(mesh::CellIndex cell) const {
+        constexpr double halfPixel = 0.5;
+        if (!reaches(cell, 0, -halfPixel - frame.centre.x, 1) ||
+            !reaches(cell, 0, frame.width - halfPixel - frame.centre.x, -1) ||
+            !reaches(cell, 1, -halfPixel - frame.centre.y, 1) ||
+            !reaches(cell, 1, frame.height - halfPixel - frame.centre.y, -1))
+            return false;
+        if (!anyCorner(cell, [](const glm::dvec3& p) { return p.z > 0; })) return false;
+        if (wanted.all() || anyCorner(cell, [&](const glm::dvec3& p) { return !frame.orthographic && p.z <= 0; }))
+            return true;
+        glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
+        anyCorner(cell, [&](const glm::dvec3& p) {
+            const glm::dvec2 at = glm::dvec2(p) / (frame.orthographic ? 1.0 : p.z) + frame.centre;
+            low = glm::min(low, at);
+            high = glm::max(high, at);
+            return false;
+        });
+        auto pixel = [](double x, int limit) {
+            return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(limit)));
+        };
+        constexpr double rounding = 0.01;
+        return wanted.any(pixel(std::ceil(low.x - rounding), frame.width),
+                          pixel(std::ceil(low.y - rounding), frame.height),
+                          pixel(std::floor(high.x + rounding) + 1, frame.width),
+                          pixel(std::floor(high.y + rounding) + 1, frame.height));
     }
 
     void renderAll() {
+        constexpr std::size_t chunk = 8192;
+        std::vector<std::vector<mesh::CellIndex>> parts(met.size() / chunk + 1);
+        tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+            for (std::size_t cell = i * chunk; cell < std::min(met.size(), (i + 1) * chunk); ++cell)
+                if (mayMeet(static_cast<mesh::CellIndex>(cell))) parts[i].push_back(static_cast<mesh::CellIndex>(cell));
+        });
         std::vector<mesh::CellIndex> cells;
-        for (mesh::CellIndex cell = 0; cell < met.size(); ++cell)
-            if (anyCorner(cell, [](const glm::dvec3& p) { return p.z > 0; })) cells.push_back(cell);
-        const double halfPixel = 0.5;
-        cells = beyond(cells, 0, -halfPixel - frame.centre.x, 1);
-        cells = beyond(cells, 0, frame.width - halfPixel - frame.centre.x, -1);
-        cells = beyond(cells, 1, -halfPixel - frame.centre.y, 1);
-        cells = beyond(cells, 1, frame.height - halfPixel - frame.centre.y, -1);
+        for (const auto& part : parts) cells.insert(cells.end(), part.begin(), part.end());
         renderBlock(0, 0, frame.width, frame.height, std::move(cells));
     }
 
     /// Pixels [x0, x1) × [y0, y1), which only `cells` can meet.
     void renderBlock(int x0, int y0, int x1, int y1, std::vector<mesh::CellIndex> cells) {
-        if (cells.empty() || !anyWanted(x0, y0, x1, y1)) return;
+        if (cells.empty() || !wanted.any(x0, y0, x1, y1)) return;
         if (x1 - x0 == 1 && y1 - y0 == 1) {
             renderPixel(x0, y0, cells);
             return;
@@ -247,11 +294,8 @@ Image ReferenceRayCaster::render(const View& view, RayCastCounts& counts) const 
 void ReferenceRayCaster::renderPixels(const View& view, const std::vector<std::uint32_t>& pixels, Image& image) const {
     if (pixels.empty()) return;
     Pass pass(*this, view, image);
-    pass.wanted.resize(image.pixels.size());
-    for (std::uint32_t pixel : pixels) {
-        pass.wanted[pixel] = true;
-        image.pixels[pixel] = glm::vec4(0);
-    }
+    pass.wanted = WantedPixels(pixels, image.width, image.height);
+    for (std::uint32_t pixel : pixels) image.pixels[pixel] = glm::vec4(0);
     pass.renderAll();
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <projection/reference_ray_caster.h>
+#include <projection/scalar_range.h>
 
 namespace tetralux::projection {
 
@@ -36,7 +37,7 @@ Verification verifyImage(const Image& image, const Scene& scene, const View& vie
                         image.width, image.height, camera.width, camera.height));
     const std::vector<std::uint32_t> pixels = chosenPixels(image.pixels.size(), samples, seed);
     Image exact(image.width, image.height);
-    ReferenceRayCaster(scene).renderPixels(view, pixels, exact);
+    ReferenceRayCaster(withScalarsInRange(scene)).renderPixels(view, pixels, exact);
     if (view.maps != nullptr) composeBehind(exact, *view.maps);
 
     Verification result;

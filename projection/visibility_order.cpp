@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -11,7 +12,9 @@
 
 #include <projection/boundary_reentry.h>
 #include <projection/cell_setup.h>
+#include <projection/order_upkeep.h>
 #include <projection/power_order.h>
+#include <projection/visibility_relations.h>
 
 namespace tetralux::projection {
 
@@ -22,6 +25,10 @@ struct VisibilitySorter::State {
     std::uint64_t failingFaces = 0;
     mesh::Adjacency adjacency;
     std::vector<BoundaryFace> boundary;  // empty when it is convex: nothing to look for
+    VisibilityOrder last;
+    std::optional<CameraFrame> lastFrame;
+
+    void findOrder(const CameraFrame& frame);
 
     State(const mesh::ScalarMesh& m, OrderMethod wanted, Use use) : mesh(m) {
         if (wanted == OrderMethod::Centroid) {
@@ -36,18 +43,20 @@ struct VisibilitySorter::State {
         method = convex ? "mpvo" : "mpvo+reentry";
         if (!convex) return;
         boundary = {};
-        if (wanted == OrderMethod::Graph || use == Use::Whole) return;
+        if (wanted == OrderMethod::Graph) return;
         const PowerOrder power(mesh, adjacency);
         failingFaces = power.failingFaces();
         if (failingFaces > 0) return;
         method = "power";
         keys = OrderKeys::power(mesh, power.heights());
-        adjacency = {};
+        if (use == Use::Keys) adjacency = {};
     }
 };
 
 VisibilitySorter::VisibilitySorter(const mesh::ScalarMesh& mesh, OrderMethod method, Use use)
-    : state_(std::make_unique<State>(mesh, method, use)) {}
+    : state_(std::make_unique<State>(mesh, method, use)) {
+    state_->last.method = state_->method;
+}
 VisibilitySorter::~VisibilitySorter() = default;
 
 const std::string& VisibilitySorter::method() const {
@@ -61,66 +70,6 @@ std::uint64_t VisibilitySorter::failingFaces() const {
 }
 
 namespace {
-
-/// The relation "lies in front of" between cells: across shared faces, and across gaps of a nonconvex boundary.
-class VisibilityGraph {
-public:
-    VisibilityGraph(const mesh::Adjacency& adjacency, const CellProjector& projector,
-                    const std::vector<std::pair<mesh::CellIndex, mesh::CellIndex>>& reentry)
-        : adjacency_(adjacency),
-          reentry_(reentry),
-          frontFaces_(adjacency.neighbours.size()),
-          nearer_(adjacency.neighbours.size()) {
-        tbb::parallel_for(std::size_t{0}, frontFaces_.size(), [&](std::size_t i) {
-            const auto cell = static_cast<mesh::CellIndex>(i);
-            unsigned mask = 0, count = 0;
-            for (unsigned k = 0; k < 4; ++k) {
-                if (!projector.faceIsFront(cell, static_cast<int>(k))) continue;
-                mask |= 1u << k;
-                count += adjacency_.neighbours[i][k] != mesh::Adjacency::noNeighbour ? 1u : 0u;
-            }
-            frontFaces_[i] = static_cast<std::uint8_t>(mask);
-            nearer_[i] = count;
-        });
-        for (const auto& [near, far] : reentry_) ++nearer_[far];
-    }
-
-    std::size_t size() const { return nearer_.size(); }
-    bool isFree(mesh::CellIndex cell) const { return nearer_[cell] == 0; }
-
-    /// Takes `cell` out of the graph and calls `freed` for each cell that nothing unordered lies in front of any more.
-    template <class Freed>
-    void remove(mesh::CellIndex cell, Freed freed) {
-        auto release = [&](mesh::CellIndex other) {
-            if (nearer_[other] > 0 && --nearer_[other] == 0) freed(other);
-        };
-        for (std::size_t k = 0; k < 4; ++k) {
-            const mesh::CellIndex other = adjacency_.neighbours[cell][k];
-            // seen edge-on the face is in front for neither cell: no relation
-            if (other != mesh::Adjacency::noNeighbour && !(frontFaces_[cell] >> k & 1u) && looksBackAt(other, cell))
-                release(other);
-        }
-        auto range = std::equal_range(reentry_.begin(), reentry_.end(), std::pair{cell, mesh::CellIndex{0}},
-                                      [](const auto& a, const auto& b) { return a.first < b.first; });
-        for (auto edge = range.first; edge != range.second; ++edge) release(edge->second);
-    }
-
-    /// No cell in front of this one holds it back any more: used to break a cycle.
-    void force(mesh::CellIndex cell) { nearer_[cell] = 0; }
-
-private:
-    /// Whether `cell` has the face that it shares with `neighbour` as a front face.
-    bool looksBackAt(mesh::CellIndex cell, mesh::CellIndex neighbour) const {
-        for (std::size_t k = 0; k < 4; ++k)
-            if (adjacency_.neighbours[cell][k] == neighbour && frontFaces_[cell] >> k & 1u) return true;
-        return false;
-    }
-
-    const mesh::Adjacency& adjacency_;
-    const std::vector<std::pair<mesh::CellIndex, mesh::CellIndex>>& reentry_;
-    std::vector<std::uint8_t> frontFaces_;
-    std::vector<std::uint32_t> nearer_;  // how many unordered cells lie directly in front
-};
 
 std::vector<mesh::CellIndex> sortedByKeys(const OrderKeys& keys, const CameraFrame& frame) {
     const std::vector<glm::dvec4>& planes = keys.planes();
@@ -158,64 +107,121 @@ double distanceOf(const mesh::ScalarMesh& mesh, const CameraFrame& frame, mesh::
     return frame.orthographic ? glm::dot(sum, frame.forward) : glm::length(sum);
 }
 
-}  // namespace
-
-/// Williams' MPVO as a topological sort over the graph (Kahn), nearest first. Where only cycles are left the nearest
-/// remaining cell is taken out of turn; that can be wrong only in the pixels that it covers, and those are named.
-VisibilityOrder VisibilitySorter::sort(const CameraFrame& frame) const {
-    const mesh::ScalarMesh& mesh = state_->mesh;
-    VisibilityOrder order;
-    order.method = state_->method;
-    if (state_->method == "centroid") {
-        order.frontToBack = sortedByKeys(state_->keys, frame);
-        return order;
-    }
-    const CellProjector projector(mesh, sceneUnits(mesh), frame);
-    Reentry reentry;
-    if (!state_->boundary.empty()) reentry = findReentry(mesh, state_->boundary, frame);
-    order.doubtfulPixels = std::move(reentry.doubtfulPixels);
-
-    VisibilityGraph graph(state_->adjacency, projector, reentry.edges);
-    std::vector<mesh::CellIndex>& sorted = order.frontToBack;
-    sorted.reserve(graph.size());
-    std::vector<bool> taken(graph.size());
-    auto take = [&](mesh::CellIndex cell) {
-        taken[cell] = true;
-        sorted.push_back(cell);
-    };
-    for (mesh::CellIndex cell = 0; cell < graph.size(); ++cell)
-        if (graph.isFree(cell)) take(cell);
-
+/// Williams' MPVO as a topological sort (Kahn), nearest first. Where only cycles are left the nearest remaining cell is
+/// taken out of turn: `forced` counts those.
+std::vector<mesh::CellIndex> sortedByRelations(const VisibilityRelations& relations, const mesh::ScalarMesh& mesh,
+                                               const CameraFrame& frame, std::uint64_t& forced) {
+    const std::size_t count = relations.cellCount();
+    std::vector<std::uint32_t> nearer(count);  // how many unordered cells lie directly in front
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i)
+            relations.eachBefore(static_cast<mesh::CellIndex>(i), [&](mesh::CellIndex) { ++nearer[i]; });
+    });
+    std::vector<mesh::CellIndex> sorted;
+    sorted.reserve(count);
+    for (mesh::CellIndex cell = 0; cell < count; ++cell)
+        if (nearer[cell] == 0) sorted.push_back(cell);
     std::size_t done = 0;
     auto drain = [&] {
-        while (done < sorted.size()) graph.remove(sorted[done++], [&](mesh::CellIndex cell) { take(cell); });
+        while (done < sorted.size())
+            relations.eachBehind(sorted[done++], [&](mesh::CellIndex cell) {
+                if (nearer[cell] > 0 && --nearer[cell] == 0) sorted.push_back(cell);
+            });
     };
     drain();
-    if (sorted.size() < graph.size()) {
-        std::vector<std::pair<double, mesh::CellIndex>> remaining;
-        for (mesh::CellIndex cell = 0; cell < graph.size(); ++cell)
-            if (!taken[cell]) remaining.emplace_back(distanceOf(mesh, frame, cell), cell);
-        std::sort(remaining.begin(), remaining.end());
-        std::vector<bool> doubtful(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
-        for (std::uint32_t pixel : order.doubtfulPixels) doubtful[pixel] = true;
-        for (const auto& [distance, cell] : remaining) {
-            if (taken[cell]) continue;
-            ++order.cyclicCells;
-            PixelRect rect;
-            if (projector.bounds(cell, rect) == SkipReason::None)
-                for (int y = rect.y0; y < rect.y1; ++y)
-                    for (int x = rect.x0; x < rect.x1; ++x)
-                        doubtful[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
-                                 static_cast<std::size_t>(x)] = true;
-            graph.force(cell);
-            take(cell);
-            drain();
-        }
-        order.doubtfulPixels.clear();
-        for (std::uint32_t pixel = 0; pixel < doubtful.size(); ++pixel)
-            if (doubtful[pixel]) order.doubtfulPixels.push_back(pixel);
+    if (sorted.size() == count) return sorted;
+
+    std::vector<std::pair<double, mesh::CellIndex>> remaining;
+    for (mesh::CellIndex cell = 0; cell < count; ++cell)
+        if (nearer[cell] > 0) remaining.emplace_back(distanceOf(mesh, frame, cell), cell);
+    std::sort(remaining.begin(), remaining.end());
+    for (const auto& [distance, cell] : remaining) {
+        if (nearer[cell] == 0) continue;
+        ++forced;
+        nearer[cell] = 0;
+        sorted.push_back(cell);
+        drain();
     }
-    return order;
+    return sorted;
+}
+
+void invert(const std::vector<mesh::CellIndex>& order, std::vector<std::uint32_t>& places) {
+    places.resize(order.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 8192), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) places[order[i]] = static_cast<std::uint32_t>(i);
+    });
+}
+
+/// Adds the pixels in which both cells of a pair that stands the wrong way round can be seen: a ray is composed wrongly
+/// only if two cells that follow one another along it do.
+void doubtPairs(const std::vector<CellPair>& wrong, const CellProjector& projector, const CameraFrame& frame,
+                std::vector<std::uint32_t>& doubtfulPixels) {
+    for (const auto& [near, far] : wrong) {
+        PixelRect a, b;
+        if (projector.bounds(near, a) != SkipReason::None || projector.bounds(far, b) != SkipReason::None) continue;
+        for (int y = std::max(a.y0, b.y0); y < std::min(a.y1, b.y1); ++y)
+            for (int x = std::max(a.x0, b.x0); x < std::min(a.x1, b.x1); ++x)
+                doubtfulPixels.push_back(static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame.width) +
+                                         static_cast<std::uint32_t>(x));
+    }
+    std::sort(doubtfulPixels.begin(), doubtfulPixels.end());
+    doubtfulPixels.erase(std::unique(doubtfulPixels.begin(), doubtfulPixels.end()), doubtfulPixels.end());
+}
+
+bool sameView(const CameraFrame& a, const CameraFrame& b) {
+    return a.eye == b.eye && a.forward == b.forward && a.right == b.right && a.up == b.up &&
+           a.perPixelRight == b.perPixelRight && a.orthographic == b.orthographic && a.width == b.width &&
+           a.height == b.height && a.sampleShift == b.sampleShift;
+}
+
+}  // namespace
+
+/// The order by keys, by the last frame's order repaired, or by the relations alone: the first that keeps every
+/// relation. Which pixels a cycle leaves in doubt is told by the relations that the order breaks.
+void VisibilitySorter::State::findOrder(const CameraFrame& frame) {
+    const CellProjector projector(mesh, sceneUnits(mesh), frame);
+    VisibilityRelations relations(adjacency, projector);
+    last.doubtfulPixels.clear();
+    if (!boundary.empty()) {
+        Reentry reentry = findReentry(mesh, boundary, frame);
+        last.doubtfulPixels = std::move(reentry.doubtfulPixels);
+        relations.setGaps(std::move(reentry.edges));
+    }
+    const bool hasLast = !last.frontToBack.empty() && last.cyclicCells == 0;
+    last.cyclicCells = 0;
+    if (hasLast) {
+        const std::vector<CellPair> wrong = relations.violations(last.places);
+        last.upkeep = wrong.empty() ? "kept" : "repaired";
+        if (wrong.empty()) return;
+        if (keys.empty() && repairOrder(relations, wrong, last.frontToBack, last.places) &&
+            relations.violations(last.places).empty())
+            return;
+    }
+    last.upkeep = "sorted";
+    if (!keys.empty()) {
+        last.frontToBack = sortedByKeys(keys, frame);
+        invert(last.frontToBack, last.places);
+        if (relations.violations(last.places).empty()) return;  // else keys rounded, or the eye is far away
+    }
+    last.frontToBack = sortedByRelations(relations, mesh, frame, last.cyclicCells);
+    invert(last.frontToBack, last.places);
+    if (last.cyclicCells > 0) doubtPairs(relations.violations(last.places), projector, frame, last.doubtfulPixels);
+}
+
+const VisibilityOrder& VisibilitySorter::sort(const CameraFrame& frame) {
+    State& state = *state_;
+    if (!state.lastFrame || !sameView(*state.lastFrame, frame)) {
+        if (state.method == "centroid") {
+            state.last.frontToBack = sortedByKeys(state.keys, frame);
+            invert(state.last.frontToBack, state.last.places);
+        } else {
+            state.findOrder(frame);
+        }
+        state.lastFrame = frame;
+    } else {
+        state.last.upkeep = "kept";
+    }
+    return state.last;
 }
 
 }  // namespace tetralux::projection

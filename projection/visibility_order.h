@@ -18,8 +18,10 @@ namespace tetralux::projection {
 
 struct VisibilityOrder {
     std::vector<mesh::CellIndex> frontToBack;
-    std::string method;             ///< "power", "mpvo", "mpvo+reentry", "centroid"
-    std::uint64_t cyclicCells = 0;  ///< cells for which no order exists; they come last
+    std::vector<std::uint32_t> places;  ///< per cell: where it stands in frontToBack
+    std::string method;                 ///< "power", "mpvo", "mpvo+reentry", "centroid"
+    std::string upkeep = "sorted";      ///< or "kept", "repaired": what became of the last frame's order
+    std::uint64_t cyclicCells = 0;      ///< cells taken out of turn because no order exists
     /// Pixels in which the order cannot be trusted (cycles, overlapping cells), as y·width + x, ascending. An engine
     /// that composites in this order has those pixels composed exactly by other means.
     std::vector<std::uint32_t> doubtfulPixels;
@@ -45,8 +47,10 @@ public:
     /// Inner faces that fail the certificate of power order; none were asked for in meshes with a nonconvex boundary.
     std::uint64_t failingFaces() const;
 
-    /// Order of the cells that lie at least partly in front of the eye. With Use::Keys only where keys() is empty.
-    VisibilityOrder sort(const CameraFrame& frame) const;
+    /// Order of all cells. The last frame's is checked first, face by face and gap by gap, and where few pairs of cells
+    /// have changed sides it is repaired rather than made anew. What is returned keeps every relation between cells but
+    /// for cycles, and holds until the next call. With Use::Keys only where keys() is empty. One thread at a time.
+    const VisibilityOrder& sort(const CameraFrame& frame);
 
 private:
     struct State;

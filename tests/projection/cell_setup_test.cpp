@@ -64,7 +64,7 @@ Worst compare(const Scene& scene, const Camera& camera, int stride) {
     for (int y = 0; y < camera.height; y += stride)
         for (int x = 0; x < camera.width; x += stride) {
             std::vector<const RaySegment*> byCell(m.cells.size());
-            const auto segments = caster.segmentsAt(camera, x + sampleShift.x, y + sampleShift.y);
+            const auto segments = caster.segmentsAt(camera, x + frame.sampleShift.x, y + frame.sampleShift.y);
             for (const auto& segment : segments) byCell[segment.cell] = &segment;
             for (mesh::CellIndex c = 0; c < m.cells.size(); ++c) {
                 PixelRect rect;

@@ -61,16 +61,6 @@ void expectLikeReference(const Scene& scene, const Camera& camera, Threshold thr
     testing::Test::RecordProperty("max", std::to_string(difference.max));
 }
 
-mesh::ScalarMesh fieldMesh(const std::string& name, int n) {
-    const auto field = mesh::proceduralField(name, n);
-    mesh::TetMesh sampled = mesh::sampleOnGrid(field, n);
-    mesh::ScalarMesh m;
-    m.positions = std::move(sampled.positions);
-    m.cells = std::move(sampled.cells);
-    m.scalars = std::move(sampled.fields.front().values);
-    return finished(std::move(m));
-}
-
 Camera wholeView(const mesh::ScalarMesh& m, int width = 52, int height = 45) {
     Camera camera;
     camera.width = width;
@@ -103,7 +93,7 @@ preint::TransferFunction functionOf(const std::string& name, double low, double 
 }
 
 Scene fieldScene(const std::string& field, const std::string& function, Mode mode, int n = 9) {
-    mesh::ScalarMesh m = fieldMesh(field, n);
+    mesh::ScalarMesh m = sampledMesh(mesh::proceduralField(field, n), n);
     const double extent = mode == Mode::ScaleInvariant ? m.scalarMax - m.scalarMin : m.bounds.diagonal() / 1.7;
     const auto transfer = functionOf(function, m.scalarMin, m.scalarMax, extent);
     return sceneOf(std::move(m), transfer, mode);
@@ -154,8 +144,8 @@ TEST(CpuEngine, ConstantExtinctionIsBeerLambert) {
         const Image image = cpuImage(scene, camera, skips);
         for (int y = 0; y < camera.height; ++y)
             for (int x = 0; x < camera.width; ++x) {
-                const auto [in, out] =
-                    pathInBox(pixelRay(frame, x + sampleShift.x, y + sampleShift.y), glm::dvec3(0), glm::dvec3(1));
+                const auto [in, out] = pathInBox(pixelRay(frame, x + frame.sampleShift.x, y + frame.sampleShift.y),
+                                                 glm::dvec3(0), glm::dvec3(1));
                 const double opacity = 1 - std::exp(-extinction * std::max(0.0, out - in));
                 ASSERT_NEAR(image.at(x, y).w, opacity, 2e-6) << x << ", " << y;
                 ASSERT_NEAR(image.at(x, y).x, 0.8 * opacity, 2e-6);

@@ -2,14 +2,19 @@
 // Orders against what rays of the reference meet, and the proof that power order rests on.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <map>
 #include <random>
+#include <tuple>
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
 #include <projection/boundary_reentry.h>
 #include <projection/cell_setup.h>
+#include <projection/edge_on_planes.h>
 #include <projection/exact_repair.h>
+#include <projection/order_upkeep.h>
 #include <projection/power_order.h>
 #include <projection/reference_ray_caster.h>
 #include <projection/visibility_order.h>
@@ -78,7 +83,7 @@ const std::vector<Camera>& views() {
 
 TEST(VisibilityOrder, OrdersAConvexMeshFromEveryEye) {
     const mesh::ScalarMesh m = jitteredBoxMesh(6, 0.25, 5, plain);
-    const VisibilitySorter sorter(m);
+    VisibilitySorter sorter(m);
     for (const Camera& camera : views()) {
         const VisibilityOrder order = sorter.sort(cameraFrame(camera));
         EXPECT_EQ(order.method, "mpvo");
@@ -96,7 +101,7 @@ TEST(VisibilityOrder, OrdersAcrossGapsOfANonconvexMesh) {
     const mesh::ScalarMesh m = carved(jitteredBoxMesh(8, 0.2, 5, plain), [](const glm::dvec3& p) {
         return glm::distance(p, glm::dvec3(0.5)) > 0.25 && p.x + p.y + p.z < 2.4 && std::abs(p.x - 0.2) > 0.08;
     });
-    const VisibilitySorter sorter(m);
+    VisibilitySorter sorter(m);
     for (const Camera& camera : views()) {
         const VisibilityOrder order = sorter.sort(cameraFrame(camera));
         EXPECT_EQ(order.method, "mpvo+reentry");
@@ -106,6 +111,69 @@ TEST(VisibilityOrder, OrdersAcrossGapsOfANonconvexMesh) {
         EXPECT_EQ(check.wrong, 0);
         EXPECT_LT(order.doubtfulPixels.size(), 20u);
     }
+}
+
+/// A camera that creeps, jumps and stays, as in an animation.
+std::vector<Camera> movingCameras() {
+    std::vector<Camera> cameras;
+    for (int i = 0; i < 12; ++i) cameras.push_back(cameraAt({1.9 + 1e-3 * i, 1.4, 2.3 - 2e-3 * i}));
+    cameras.push_back(cameras.back());
+    cameras.back().target.x += 0.05;  // turns, but the eye stays
+    cameras.push_back(cameraAt({-1.2, 0.4, 1.9}));
+    for (int i = 1; i < 6; ++i) cameras.push_back(cameraAt({-1.2 + 3e-3 * i, 0.4, 1.9}));
+    return cameras;
+}
+
+TEST(OrderUpkeep, KeptAndRepairedOrdersAreRight) {
+    const mesh::ScalarMesh whole = jitteredBoxMesh(8, 0.2, 5, plain);
+    const mesh::ScalarMesh hollow =
+        carved(whole, [](const glm::dvec3& p) { return glm::distance(p, glm::dvec3(0.5)) > 0.3; });
+    for (const auto& [m, method, wanted] :
+         {std::tuple(whole, OrderMethod::Auto, "power"), std::tuple(whole, OrderMethod::Graph, "mpvo"),
+          std::tuple(hollow, OrderMethod::Auto, "mpvo+reentry")}) {
+        VisibilitySorter sorter(m, method);
+        EXPECT_EQ(sorter.method(), wanted);
+        std::map<std::string, int> upkeep;
+        for (const Camera& camera : movingCameras()) {
+            const VisibilityOrder& order = sorter.sort(cameraFrame(camera));
+            ++upkeep[order.upkeep];
+            const OrderCheck check = checkAgainstRays(m, camera, order.frontToBack, order.doubtfulPixels);
+            EXPECT_GT(check.pairs, 500);
+            EXPECT_EQ(check.wrong, 0) << wanted << ", " << order.upkeep;
+            for (std::uint32_t i = 0; i < order.places.size(); ++i) ASSERT_EQ(order.places[order.frontToBack[i]], i);
+        }
+        std::printf("%s: %d sorted, %d kept, %d repaired\n", wanted, upkeep["sorted"], upkeep["kept"],
+                    upkeep["repaired"]);
+        EXPECT_GE(upkeep["kept"], 1) << "the eye stayed once";
+        EXPECT_GE(upkeep["sorted"], 1);
+        if (method == OrderMethod::Graph) {
+            EXPECT_GE(upkeep["repaired"], 5);
+        }
+    }
+}
+
+TEST(OrderUpkeep, RepairMovesFewCellsOrSaysNo) {
+    const mesh::ScalarMesh m = jitteredBoxMesh(6, 0.2, 5, plain);
+    const mesh::Adjacency adjacency = mesh::buildAdjacency(m.cells, m.positions.size());
+    const VisibilityRelations relations(adjacency,
+                                        CellProjector(m, sceneUnits(m), cameraFrame(cameraAt({1.9, 1.4, 2.3}))));
+    const VisibilityOrder right = VisibilitySorter(m).sort(cameraFrame(cameraAt({1.9, 1.4, 2.3})));
+    EXPECT_TRUE(relations.violations(right.places).empty());
+
+    VisibilityOrder spoiled = right;  // swap cells a few places apart
+    for (std::size_t i = 20; i + 40 < spoiled.frontToBack.size(); i += 200)
+        std::swap(spoiled.frontToBack[i], spoiled.frontToBack[i + 30]);
+    for (std::uint32_t i = 0; i < spoiled.places.size(); ++i) spoiled.places[spoiled.frontToBack[i]] = i;
+    const auto wrong = relations.violations(spoiled.places);
+    ASSERT_FALSE(wrong.empty());
+    EXPECT_TRUE(repairOrder(relations, wrong, spoiled.frontToBack, spoiled.places));
+    EXPECT_TRUE(relations.violations(spoiled.places).empty());
+
+    VisibilityOrder reversed = right;
+    std::reverse(reversed.frontToBack.begin(), reversed.frontToBack.end());
+    for (std::uint32_t i = 0; i < reversed.places.size(); ++i) reversed.places[reversed.frontToBack[i]] = i;
+    EXPECT_FALSE(repairOrder(relations, relations.violations(reversed.places), reversed.frontToBack, reversed.places))
+        << "everything would have to move";
 }
 
 /// Three slivers, each over the next: no order exists where they cross.
@@ -155,6 +223,26 @@ TEST(VisibilityOrder, NamesThePixelsOfOverlappingCells) {
     ReferenceRayCaster(sceneOf(m, constantFunction(1))).render(camera, counts);
     EXPECT_GT(counts.overlaps, 20u);
     EXPECT_GE(order.doubtfulPixels.size(), counts.overlaps);
+}
+
+TEST(EdgeOnPlanes, SamplesStandAsideOnlyWhereAPlanePassesPixelCentres) {
+    const EdgeOnPlanes grid(boxMesh(9, plain)), jittered(jitteredBoxMesh(9, 0.2, 3, plain));
+    EXPECT_GT(grid.count(), 27u);
+    EXPECT_EQ(jittered.count(), 6u) << "the sides of the box";
+    auto shifts = [](const EdgeOnPlanes& planes, const Camera& camera) {
+        return planes.sampleShift(cameraFrame(camera)) == EdgeOnPlanes::widely;
+    };
+    const glm::dvec3 centre(0.5);
+    EXPECT_TRUE(shifts(grid, cameraAt({0.5, 0.5, 3}, centre, 33, 33))) << "the middle column runs within a plane";
+    EXPECT_FALSE(shifts(grid, cameraAt({0.5, 0.5, 3}, centre, 32, 32))) << "it runs between two columns";
+    EXPECT_FALSE(shifts(jittered, cameraAt({0.5, 0.5, 3}, centre, 33, 33))) << "no plane but the sides";
+    EXPECT_FALSE(shifts(grid, cameraAt({1.9, 1.4, 2.3}, centre, 33, 33)));
+    Camera parallel = cameraAt({0.5, 0.5, 3}, centre, 32, 32);
+    parallel.orthographicHeight =
+        2.0;  // a pixel is half a cell: faces pass at odd halves of pixels, or through centres
+    EXPECT_FALSE(shifts(grid, parallel));
+    parallel.eye.x = parallel.target.x = 0.5 + 1.0 / 32;
+    EXPECT_TRUE(shifts(grid, parallel));
 }
 
 TEST(BoundaryIsConvex, TellsBoxesFromCarvedBoxes) {

@@ -28,6 +28,10 @@ struct UnitsCase {
     double scale, shift;  // positions become scale·(p + shift)
 };
 
+void PrintTo(const UnitsCase& units, std::ostream* out) {
+    *out << units.name;
+}
+
 class MeshUnits : public ::testing::TestWithParam<UnitsCase> {};
 
 TEST_P(MeshUnits, DoNotChangeThePicture) {
@@ -65,8 +69,9 @@ INSTANTIATE_TEST_SUITE_P(Stress, MeshUnits,
 TEST(StressScalars, MagnitudeAndOffsetDoNotChangeThePicture) {
     const mesh::ScalarMesh base = jitteredBoxMesh(6, 0.2, 4, wave);
     const Camera camera = cameraAt(eye);
-    for (const auto& [scale, offset] : {std::pair{1e30, 0.0}, {1e-30, 0.0}, {1e-300, 0.0}, {1.0, 1e6}})
+    for (const auto& [scale, offset] : {std::pair{1e30, 0.0}, {1e-30, 0.0}, {1e-300, 0.0}, {1e-310, 0.0}, {1.0, 1e6}})
         for (Mode mode : {Mode::Standard, Mode::ScaleInvariant}) {
+            if (mode == Mode::ScaleInvariant && scale < 1e-307) continue;  // its extinction would be infinite
             mesh::ScalarMesh m = base;
             for (double& s : m.scalars) s = scale * (s + offset);
             m = finished(std::move(m));
@@ -78,6 +83,23 @@ TEST(StressScalars, MagnitudeAndOffsetDoNotChangeThePicture) {
             }
             holdEnginesTo(referenceImage(sceneOf(base, f, mode), camera), sceneOf(m, moved, mode), camera, benign,
                           fmt::format("scalars x {:g} + {:g} {}", scale, offset,
+                                      mode == Mode::Standard ? "standard" : "scale-invariant"));
+        }
+}
+
+TEST(StressOpacity, OpticalDepthsOfTwentyFourDecades) {
+    // a ramp, so that nothing is constant: τ·l of the whole box from 1e-12 to 1e12
+    const mesh::ScalarMesh m = boxMesh(5, [](const glm::dvec3& p) { return 0.2 + 0.6 * p.x; });
+    for (Mode mode : {Mode::Standard, Mode::ScaleInvariant})
+        for (int exponent = -12; exponent <= 12; exponent += 4) {
+            const double strongest = std::pow(10.0, exponent);
+            const Scene scene = sceneOf(m, smoothFunction(0, 1, strongest), mode);
+            const Image expected = referenceImage(scene, cameraAt(eye));
+            // opacity is 1 − transmittance in float, which holds 6e-8 at best; what is more is relative to what there
+            // is
+            const double scale = std::min(1.0, strongest);
+            holdEnginesTo(expected, scene, cameraAt(eye), {1e-7 + 1e-5 * scale, 1e-6 + 1e-4 * scale},
+                          fmt::format("optical depth 1e{} {}", exponent,
                                       mode == Mode::Standard ? "standard" : "scale-invariant"));
         }
 }

@@ -29,16 +29,20 @@ inline mesh::ScalarMesh finished(mesh::ScalarMesh m) {
     return m;
 }
 
-/// The box [low, high] as n³ points and (n − 1)³·5 tetrahedra with the scalar given by `value`.
-inline mesh::ScalarMesh boxMesh(int n, const std::function<double(const glm::dvec3&)>& value,
-                                const glm::dvec3& low = glm::dvec3(0), const glm::dvec3& high = glm::dvec3(1)) {
-    mesh::ProceduralField field{"box", "s", {low, high}, value, {}};
+/// A field on n³ points and (n − 1)³·5 tetrahedra.
+inline mesh::ScalarMesh sampledMesh(const mesh::ProceduralField& field, int n) {
     mesh::TetMesh sampled = mesh::sampleOnGrid(field, n);
     mesh::ScalarMesh m;
     m.positions = std::move(sampled.positions);
     m.cells = std::move(sampled.cells);
     m.scalars = std::move(sampled.fields.front().values);
     return finished(std::move(m));
+}
+
+/// The box [low, high] as n³ points and (n − 1)³·5 tetrahedra with the scalar given by `value`.
+inline mesh::ScalarMesh boxMesh(int n, const std::function<double(const glm::dvec3&)>& value,
+                                const glm::dvec3& low = glm::dvec3(0), const glm::dvec3& high = glm::dvec3(1)) {
+    return sampledMesh({"box", "s", {low, high}, value, {}}, n);
 }
 
 /// The same with inner points moved by up to `share` of the spacing, scalars sampled at the moved points.

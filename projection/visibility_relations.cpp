@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/visibility_relations.h>
+
+#include <algorithm>
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+namespace tetralux::projection {
+
+VisibilityRelations::VisibilityRelations(const mesh::Adjacency& adjacency, const CellProjector& projector)
+    : adjacency_(adjacency), sides_(adjacency.neighbours.size()) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sides_.size(), 2048), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            unsigned sides = 0;
+            for (unsigned k = 0; k < 4; ++k) {
+                if (adjacency.neighbours[i][k] == mesh::Adjacency::noNeighbour) continue;
+                const double side = projector.eyeSide(static_cast<mesh::CellIndex>(i), static_cast<int>(k));
+                sides |= side < 0 ? 1u << k : side > 0 ? 16u << k : 0u;
+            }
+            sides_[i] = static_cast<std::uint16_t>(sides);
+        }
+    });
+}
+
+void VisibilityRelations::setGaps(std::vector<CellPair> gaps) {
+    gaps_ = std::move(gaps);
+    reversedGaps_.clear();
+    reversedGaps_.reserve(gaps_.size());
+    for (const auto& [near, far] : gaps_) {
+        sides_[near] |= gapBehind;
+        sides_[far] |= gapBefore;
+        reversedGaps_.emplace_back(far, near);
+    }
+    std::sort(reversedGaps_.begin(), reversedGaps_.end());
+}
+
+std::vector<CellPair>::const_iterator VisibilityRelations::firstOf(const std::vector<CellPair>& pairs,
+                                                                   mesh::CellIndex cell) {
+    return std::lower_bound(pairs.begin(), pairs.end(), CellPair{cell, 0});
+}
+
+std::vector<CellPair> VisibilityRelations::violations(const std::vector<std::uint32_t>& places) const {
+    tbb::enumerable_thread_specific<std::vector<CellPair>> found;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sides_.size(), 4096), [&](const auto& range) {
+        auto& mine = found.local();
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            const auto cell = static_cast<mesh::CellIndex>(i);
+            eachBehind(cell, [&](mesh::CellIndex other) {
+                if (places[other] < places[cell]) mine.emplace_back(cell, other);
+            });
+        }
+    });
+    std::vector<CellPair> all;
+    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+}  // namespace tetralux::projection

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <mesh/adjacency.h>
+#include <projection/cell_setup.h>
+
+namespace tetralux::projection {
+
+/// (nearer, farther)
+using CellPair = std::pair<mesh::CellIndex, mesh::CellIndex>;
+
+/// Which cell lies directly in front of which, for one eye: across shared faces (Williams' MPVO, 1992) and across the
+/// gaps of a nonconvex boundary. Wherever two cells follow one another along a pixel's ray there is a relation
+/// between them, so an order that keeps all relations is right in every pixel.
+class VisibilityRelations {
+public:
+    /// Sides of all faces, in parallel. A face seen edge-on is in front for neither of its cells: no relation.
+    VisibilityRelations(const mesh::Adjacency& adjacency, const CellProjector& projector);
+
+    /// Pairs across gaps: unique and sorted.
+    void setGaps(std::vector<CellPair> gaps);
+
+    std::size_t cellCount() const { return sides_.size(); }
+
+    /// Calls visit(cell) for each cell that lies directly behind `cell`.
+    template <class Visit>
+    void eachBehind(mesh::CellIndex cell, Visit visit) const {
+        eachAcross(cell, 4, visit);
+        if (!(sides_[cell] & gapBehind)) return;
+        for (auto i = firstOf(gaps_, cell); i != gaps_.end() && i->first == cell; ++i) visit(i->second);
+    }
+
+    /// Calls visit(cell) for each cell that lies directly in front of `cell`.
+    template <class Visit>
+    void eachBefore(mesh::CellIndex cell, Visit visit) const {
+        eachAcross(cell, 0, visit);
+        if (!(sides_[cell] & gapBefore)) return;
+        for (auto i = firstOf(reversedGaps_, cell); i != reversedGaps_.end() && i->first == cell; ++i) visit(i->second);
+    }
+
+    /// Pairs that the places (one per cell, ascending from the eye) have the wrong way round.
+    std::vector<CellPair> violations(const std::vector<std::uint32_t>& places) const;
+
+private:
+    // bit k: face k shows its outside to the eye; bit 4 + k: its inside
+    static constexpr std::uint16_t gapBehind = 1u << 8, gapBefore = 1u << 9;
+
+    template <class Visit>
+    void eachAcross(mesh::CellIndex cell, unsigned shift, Visit visit) const {
+        for (unsigned k = 0; k < 4; ++k)
+            if (sides_[cell] >> (shift + k) & 1u) visit(adjacency_.neighbours[cell][k]);
+    }
+    static std::vector<CellPair>::const_iterator firstOf(const std::vector<CellPair>& pairs, mesh::CellIndex cell);
+
+    const mesh::Adjacency& adjacency_;
+    std::vector<std::uint16_t> sides_;  // only of faces with a neighbour
+    std::vector<CellPair> gaps_, reversedGaps_;
+};
+
+}  // namespace tetralux::projection

@@ -9,9 +9,11 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <mesh/plane_cut.h>
+#include <projection/arriving_light.h>
 #include <projection/ray_triangle.h>
 
 namespace tetralux::projection {
@@ -66,18 +68,22 @@ void OpaqueLayer::append(const mesh::SurfaceMesh& part, std::uint32_t object) {
     }
 }
 
-glm::dvec3 OpaqueLayer::surfaceColor(const OpaqueSurface& surface, const Triangle& triangle,
-                                     const glm::dvec3& direction) const {
+glm::dvec3 OpaqueLayer::surfaceColor(const OpaqueSurface& surface, const Triangle& triangle, const RayFrame& ray,
+                                     double distance) const {
     if (surface.flat) return surface.color;
     const auto& [a, b, c] = triangle.corners;
     const glm::dvec3 across = glm::cross(positions_[b] - positions_[a], positions_[c] - positions_[a]);
     const double twiceArea = glm::length(across);
     if (twiceArea == 0) return surface.color;
-    const glm::dvec3 normal = across / (glm::dot(across, direction) > 0 ? -twiceArea : twiceArea);
-    double light = shading_.ambient;
-    if (!shading_.lit()) light += (1.0 - std::min(1.0, light)) * -glm::dot(normal, direction);
-    for (const auto& source : shading_.lights) light += std::max(0.0, glm::dot(normal, source.towards));
-    return surface.color * std::min(light, 1.0);
+    const glm::dvec3 normal = across / (glm::dot(across, ray.direction) > 0 ? -twiceArea : twiceArea);
+    glm::dvec3 light = shading_.ambient * shading_.ambientColor;
+    if (!shading_.lit()) light += (1.0 - glm::min(light, 1.0)) * -glm::dot(normal, ray.direction);
+    for (const shading::Light& source : shading_.lights) {
+        const ArrivingLight arriving =
+            arrivingLight(source, ray.origin + distance * ray.direction, ray.direction, distance);
+        light += std::max(0.0, glm::dot(normal, arriving.towards)) * arriving.color;
+    }
+    return surface.color * glm::min(light, 1.0);
 }
 
 /// One camera's view of all triangles.
@@ -177,7 +183,7 @@ private:
             const std::size_t slot = Tile::slot(tile->box, x, y);
             const auto& [distance, triangle, where] = tile->met[slot];
             if (triangle != nullptr)
-                hits_[pixelNumber(x, y)] = {distance, glm::vec3(colorOf(*triangle, where, tile->rays[slot].direction))};
+                hits_[pixelNumber(x, y)] = {distance, glm::vec3(colorOf(*triangle, where, tile->rays[slot], distance))};
         });
     }
 
@@ -220,9 +226,10 @@ private:
                (maps_.farthest.empty() || t <= maps_.farthest[pixel] + tolerance);
     }
 
-    glm::dvec3 colorOf(const Triangle& triangle, const TriangleCrossing& where, const glm::dvec3& direction) const {
+    glm::dvec3 colorOf(const Triangle& triangle, const TriangleCrossing& where, const RayFrame& ray,
+                       double distance) const {
         if (!isSlice(triangle))
-            return layer_.surfaceColor(layer_.surfaces_[triangle.object - layer_.sliceCount_], triangle, direction);
+            return layer_.surfaceColor(layer_.surfaces_[triangle.object - layer_.sliceCount_], triangle, ray, distance);
         const auto& [a, b, c] = triangle.corners;
         const std::vector<double>& scalars = layer_.scalars_;
         const double scalar = layer_.association_ == mesh::Association::Cell

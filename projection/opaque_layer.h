@@ -17,6 +17,8 @@
 
 namespace tetralux::projection {
 
+struct RayFrame;
+
 /// One of a scene's map sources; it comes behind clip planes, which leave out parts of slices (surfaces stay whole).
 class OpaqueLayer final : public PixelMapSource {
 public:
@@ -35,7 +37,8 @@ private:
     };
 
     void append(const mesh::SurfaceMesh& part, std::uint32_t object);
-    glm::dvec3 surfaceColor(const OpaqueSurface& surface, const Triangle& triangle, const glm::dvec3& direction) const;
+    glm::dvec3 surfaceColor(const OpaqueSurface& surface, const Triangle& triangle, const RayFrame& ray,
+                            double distance) const;
 
     mesh::Association association_;  // of the mesh's scalar
     preint::TransferFunction transferFunction_;

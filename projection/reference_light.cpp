@@ -6,13 +6,12 @@
 
 #include <glm/geometric.hpp>
 
+#include <projection/arriving_light.h>
 #include <projection/cell_shading.h>
 
 namespace tetralux::projection {
 
 namespace {
-
-using shading::Light;
 
 /// Barycentric coordinates of `x` in a cell, brought inside where rounding left them beyond.
 std::array<double, 4> coordinatesIn(const mesh::ScalarMesh& mesh, mesh::CellIndex cell, const glm::dvec3& x) {
@@ -67,26 +66,6 @@ glsl::LightModel modelOf(const shading::ShadingSettings& settings) {
             material.phaseAsymmetry};
 }
 
-/// Direction to a light and what of it arrives, shadows apart.
-struct Arriving {
-    glm::dvec3 towards, color;
-};
-Arriving arriving(const Light& light, const SegmentToLight& segment) {
-    switch (light.kind) {
-        case Light::Kind::Directional:
-            return {glm::normalize(light.towards), light.color};
-        case Light::Kind::Point: {
-            const glm::dvec3 way = light.position - segment.middle;
-            const double distance = glm::length(way);
-            if (!(distance > 0)) return {-segment.direction, light.color * glsl::attenuation(light.attenuation, 0.0)};
-            return {way / distance, light.color * glsl::attenuation(light.attenuation, distance)};
-        }
-        case Light::Kind::Head:
-            break;
-    }
-    return {-segment.direction, light.color * glsl::attenuation(light.attenuation, segment.fromEye)};
-}
-
 }  // namespace
 
 glm::dvec3 litColor(const Scene& scene, const SegmentToLight& segment) {
@@ -111,7 +90,8 @@ glm::dvec3 litColor(const Scene& scene, const SegmentToLight& segment) {
     if (settings.needsAnisotropy())
         glsl::setAnisotropy(model, attributes.vectorAt(kept.tensorAt), attributes.vectorAt(kept.tensorAt + 3), point);
     for (std::size_t i = 0; i < settings.lights.size(); ++i) {
-        const Arriving source = arriving(settings.lights[i], segment);
+        const ArrivingLight source =
+            arrivingLight(settings.lights[i], segment.middle, segment.direction, segment.fromEye);
         const double shadow = kept.shadowAt >= 0 ? attributes.at(kept.shadowAt + static_cast<int>(i)) : 1.0;
         light += shadow * source.color * glsl::modelTerm(model, point, segment.color, source.towards);
     }

@@ -74,7 +74,8 @@ bool isEdge(const std::vector<Expected>& seen, int width, int height, int x, int
     return false;
 }
 
-/// Renders by every engine and holds each pixel to the closed form. Returns how many pixels with something opaque were compared.
+/// Renders by every engine and holds each pixel to the closed form. Returns how many pixels with something opaque were
+/// compared.
 int holdToClosedForm(const Scene& scene, const Camera& camera, const Trace& trace, double tolerance) {
     const preint::ExactIntegral exact(scene.transferFunction);
     const CameraFrame frame = cameraFrame(camera);
@@ -242,6 +243,13 @@ TEST(OpaqueLayer, SurfacesAreLitFromTheSideThatIsSeen) {
     EXPECT_NEAR(color(), 0.1 + std::sqrt(0.5), 1e-6);
     scene.settings.shading.lights = {{glm::dvec3(0, 0, -1)}};
     EXPECT_NEAR(color(), 0.1, 1e-6) << "a light behind does not shine through";
+    shading::Light lamp;  // on the way to the eye, 2 away from the surface
+    lamp.kind = shading::Light::Kind::Point;
+    lamp.position = {0.45, 0.45, 2.6};
+    lamp.color = {2, 1, 1};
+    lamp.attenuation = {0, 0, 1};
+    scene.settings.shading.lights = {lamp};
+    EXPECT_NEAR(color(), 0.1 + 2.0 / 4.0, 1e-6);
 }
 
 TEST(OpaqueLayer, ASliceBesideTheMeshIsRefused) {

@@ -92,6 +92,7 @@ private:
 
 bool repairOrder(const VisibilityRelations& relations, const std::vector<CellPair>& violations,
                  std::vector<mesh::CellIndex>& order, std::vector<std::uint32_t>& places) {
+    if (violations.size() > relations.cellCount() / worthwhileShare) return false;
     Repair repair(relations, order, places);
     return std::all_of(violations.begin(), violations.end(),
                        [&](const CellPair& pair) { return repair.place(pair.first, pair.second); });

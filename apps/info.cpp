@@ -66,6 +66,7 @@ nlohmann::json infoJson(const InfoOptions& options, const Findings& found) {
     return {{"mesh", options.source},
             {"points", all.points},
             {"points_merged", found.report.pointsMerged},
+            {"faces_fitted", found.report.facesFitted},
             {"cells",
              {{"read", found.report.cellsRead}, {"types", found.report.cellTypes}, {"skipped", found.report.skipped}}},
             {"tetrahedra", all.cells},
@@ -116,6 +117,9 @@ void printInfo(const InfoOptions& options, const Findings& found) {
     fmt::print("volume: {:.6g}, cells from {:.3g} to {:.3g}\n", all.volume, all.smallestVolume, all.largestVolume);
     fmt::print("faces: {} inner ({:.1f} % Delaunay), {} on the boundary\n", all.innerFaces, 100.0 * all.delaunayShare(),
                all.boundaryFaces);
+    if (found.report.facesFitted > 0)
+        fmt::print("fitted: {} quadrilaterals cut as the two triangles on their other side\n", found.report.facesFitted);
+    if (found.report.pointsMerged > 0) fmt::print("merged: {} points with an equal one\n", found.report.pointsMerged);
     fmt::print("memory: {:.1f} MiB\n", static_cast<double>(all.memoryBytes) / (1024.0 * 1024.0));
     fmt::print("fields:{}\n", all.fields.empty() ? " none" : "");
     for (const mesh::FieldStatistics& field : all.fields) printField(field);

@@ -5,12 +5,16 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
+#include <memory>
+#include <string_view>
+#include <type_traits>
 
+#include <libdeflate.h>
 #include <lz4.h>
 #include <tbb/parallel_for.h>
 #include <unistd.h>
-#include <zlib.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -61,15 +65,80 @@ bool decodeBase64(const char* text, std::uint64_t groups, char* out) {
     return (seen & 0xc0) == 0;
 }
 
-bool decompress(VtuHead::Compression compression, const std::vector<char>& block, std::vector<char>& values) {
-    if (compression == VtuHead::Compression::Zlib) {
-        uLongf size = values.size();
-        const int status = ::uncompress(reinterpret_cast<Bytef*>(values.data()), &size,
-                                        reinterpret_cast<const Bytef*>(block.data()), block.size());
-        return status == Z_OK && size == values.size();
+/// What libdeflate needs to work with; two to three times as fast as zlib.
+class Inflater {
+public:
+    bool decompress(const std::vector<char>& block, std::vector<char>& values) const {
+        return state_ != nullptr && libdeflate_zlib_decompress(state_.get(), block.data(), block.size(), values.data(),
+                                                               values.size(), nullptr) == LIBDEFLATE_SUCCESS;
+    }
+
+private:
+    std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> state_{libdeflate_alloc_decompressor(),
+                                                                                        &libdeflate_free_decompressor};
+};
+
+bool decompress(VtuEncoding::Compression compression, const std::vector<char>& block, std::vector<char>& values) {
+    if (compression == VtuEncoding::Compression::Zlib) {
+        thread_local const Inflater inflater;
+        return inflater.decompress(block, values);
     }
     return LZ4_decompress_safe(block.data(), values.data(), static_cast<int>(block.size()),
                                static_cast<int>(values.size())) == static_cast<int>(values.size());
+}
+
+bool isSpace(char c) {
+    return c == ' ' || c == '\n' || c == '\t' || c == '\r';
+}
+
+constexpr std::uint64_t textPiece = 1u << 20;
+constexpr std::uint64_t longestWord = 64;
+
+/// The words that begin in piece `piece` of the text from `start` to `end`. Valid until the thread's next call.
+/// \returns false if the file ends before, or a word is longer than any number.
+bool readWords(int file, std::uint64_t start, std::uint64_t end, std::size_t piece, std::string_view& words) {
+    const std::uint64_t first = start + piece * textPiece;
+    const std::uint64_t before = first > start ? first - 1 : first;  // to tell whether a word began there
+    const std::uint64_t nominal = std::min(end, first + textPiece);
+    const std::uint64_t last = std::min(end, nominal + longestWord);
+    thread_local std::vector<char> bytes;
+    bytes.resize(static_cast<std::size_t>(last - before));
+    if (!readAt(file, before, bytes.size(), bytes.data())) {
+        return false;
+    }
+    std::size_t from = 0;
+    while (first > start && from < bytes.size() && !isSpace(bytes[from])) {
+        ++from;
+    }
+    std::size_t to = static_cast<std::size_t>(nominal - before);
+    while (to > 0 && to < bytes.size() && !isSpace(bytes[to - 1]) && !isSpace(bytes[to])) {
+        ++to;
+    }
+    words = from < to ? std::string_view(bytes.data() + from, to - from) : std::string_view();
+    return to < bytes.size() || last == end;
+}
+
+/// \returns false unless `text` holds exactly as many numbers as `values` has room for.
+template <class T>
+bool parseWords(std::string_view text, std::vector<T>& values) {
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (T& value : values) {
+        while (at != end && isSpace(*at)) {
+            ++at;
+        }
+        // Bytes are numbers in these files, not characters.
+        std::conditional_t<sizeof(T) == 1, int, T> number{};
+        const auto [stop, error] = std::from_chars(at, end, number);
+        if (error != std::errc() || (stop != end && !isSpace(*stop)) || static_cast<T>(number) != number) {
+            if (number == number) {
+                return false;
+            }
+        }
+        value = static_cast<T>(number);
+        at = stop;
+    }
+    return true;
 }
 
 }  // namespace
@@ -92,29 +161,29 @@ bool EncodedStream::read(std::uint64_t offset, std::uint64_t size, char* out) co
     return true;
 }
 
-AppendedArray::AppendedArray(int file, std::uint64_t fileSize, const VtuHead& head, std::uint64_t offset,
-                             unsigned elementBytes)
-    : header_(file, head.dataStart + offset, head.base64),
+EncodedArray::EncodedArray(int file, std::uint64_t fileSize, const VtuEncoding& encoding, std::uint64_t start,
+                           unsigned elementBytes)
+    : header_(file, start, encoding.base64),
       data_(header_),
       fileSize_(fileSize),
-      headerBytes_(head.headerBytes),
+      headerBytes_(encoding.headerBytes),
       elementBytes_(elementBytes),
-      compression_(head.compression),
-      base64_(head.base64) {
-    if (offset > fileSize || head.dataStart + offset > fileSize) {
+      compression_(encoding.compression),
+      base64_(encoding.base64) {
+    if (start > fileSize) {
         return;
     }
-    const bool plain = compression_ == VtuHead::Compression::None;
+    const bool plain = compression_ == VtuEncoding::Compression::None;
     sound_ = (plain ? readPlainHeader() : readBlockHeader()) && bytes_ % elementBytes_ == 0 &&
              pieceBytes_ % elementBytes_ == 0;
     if (sound_ && !plain) {
         const std::uint64_t headerSize = (3 + blockEnds_.size()) * headerBytes_;
         const std::uint64_t encoded = base64_ ? (headerSize + 2) / 3 * 4 : headerSize;
-        data_ = EncodedStream(file, head.dataStart + offset + encoded, base64_);
+        data_ = EncodedStream(file, start + encoded, base64_);
     }
 }
 
-bool AppendedArray::readPlainHeader() {
+bool EncodedArray::readPlainHeader() {
     if (!header_.read(0, headerBytes_, reinterpret_cast<char*>(&bytes_))) {
         return false;
     }
@@ -124,7 +193,7 @@ bool AppendedArray::readPlainHeader() {
 }
 
 /// Number of blocks, bytes of a block, bytes of the last if it is shorter, compressed size of each block.
-bool AppendedArray::readBlockHeader() {
+bool EncodedArray::readBlockHeader() {
     std::array<std::uint64_t, 3> numbers{};
     for (std::size_t i = 0; i < 3; ++i) {
         if (!header_.read(i * headerBytes_, headerBytes_, reinterpret_cast<char*>(&numbers[i]))) {
@@ -156,10 +225,10 @@ bool AppendedArray::readBlockHeader() {
     return end <= fileSize_ && bytes_ / largestRatio <= fileSize_;
 }
 
-bool AppendedArray::readPiece(std::size_t piece, std::vector<char>& scratch, std::vector<char>& values) const {
+bool EncodedArray::readPiece(std::size_t piece, std::vector<char>& scratch, std::vector<char>& values) const {
     const std::uint64_t begin = pieceBegin(piece);
     values.resize(std::min(bytes_ - begin, pieceBytes_));
-    if (compression_ == VtuHead::Compression::None) {
+    if (compression_ == VtuEncoding::Compression::None) {
         return data_.read(dataOffset_ + begin, values.size(), values.data());
     }
     const std::uint64_t blockBegin = piece == 0 ? 0 : blockEnds_[piece - 1];
@@ -167,7 +236,7 @@ bool AppendedArray::readPiece(std::size_t piece, std::vector<char>& scratch, std
     return data_.read(blockBegin, scratch.size(), scratch.data()) && decompress(compression_, scratch, values);
 }
 
-bool AppendedArray::forEachPiece(const std::function<void(std::uint64_t, const char*, std::uint64_t)>& use) const {
+bool EncodedArray::forEachPiece(const std::function<void(std::uint64_t, const char*, std::uint64_t)>& use) const {
     const std::size_t pieces = bytes_ == 0 ? 0 : static_cast<std::size_t>((bytes_ + pieceBytes_ - 1) / pieceBytes_);
     std::atomic<bool> good = true;
     tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t piece) {
@@ -181,5 +250,58 @@ bool AppendedArray::forEachPiece(const std::function<void(std::uint64_t, const c
     });
     return good;
 }
+
+template <class T>
+TextArray<T>::TextArray(int file, std::uint64_t start, std::uint64_t end) : file_(file), start_(start), end_(end) {
+    const std::size_t pieces = static_cast<std::size_t>((end - start + textPiece - 1) / textPiece);
+    firsts_.assign(pieces + 1, 0);
+    std::atomic<bool> good = true;
+    tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t piece) {
+        std::string_view text;
+        if (!readWords(file_, start_, end_, piece, text)) {
+            good.store(false, std::memory_order_relaxed);
+        }
+        std::uint64_t words = 0;
+        bool before = true;  // a space
+        for (const char c : text) {
+            const bool space = isSpace(c);
+            words += before && !space ? 1 : 0;
+            before = space;
+        }
+        firsts_[piece + 1] = words;
+    });
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+        firsts_[piece + 1] += firsts_[piece];
+    }
+    sound_ = good;
+}
+
+template <class T>
+bool TextArray<T>::forEachPiece(const std::function<void(std::uint64_t, const char*, std::uint64_t)>& use) const {
+    std::atomic<bool> good = true;
+    tbb::parallel_for(std::size_t{0}, firsts_.size() - 1, [&](std::size_t piece) {
+        thread_local std::vector<T> values;
+        std::string_view text;
+        values.resize(static_cast<std::size_t>(firsts_[piece + 1] - firsts_[piece]));
+        if (good.load(std::memory_order_relaxed) && readWords(file_, start_, end_, piece, text) &&
+            parseWords(text, values)) {
+            use(firsts_[piece], reinterpret_cast<const char*>(values.data()), values.size());
+        } else {
+            good.store(false, std::memory_order_relaxed);
+        }
+    });
+    return good;
+}
+
+template class TextArray<double>;
+template class TextArray<float>;
+template class TextArray<std::int64_t>;
+template class TextArray<std::int32_t>;
+template class TextArray<std::int16_t>;
+template class TextArray<std::int8_t>;
+template class TextArray<std::uint64_t>;
+template class TextArray<std::uint32_t>;
+template class TextArray<std::uint16_t>;
+template class TextArray<std::uint8_t>;
 
 }  // namespace tetralux::mesh

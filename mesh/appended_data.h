@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Arrays out of the appended part of a VTK XML file, by many threads.
+/// Arrays out of a VTK XML file, by many threads.
 #pragma once
 
 #include <cstdint>
@@ -25,11 +25,13 @@ private:
     bool base64_;
 };
 
-/// One array: its header is read at once, its values in pieces.
-class AppendedArray {
+/// One encoded array: its header is read at once, its values in pieces.
+class EncodedArray {
 public:
+    /// \param start of the header, in bytes from the start of the file.
     /// \param elementBytes size of one value.
-    AppendedArray(int file, std::uint64_t fileSize, const VtuHead& head, std::uint64_t offset, unsigned elementBytes);
+    EncodedArray(int file, std::uint64_t fileSize, const VtuEncoding& encoding, std::uint64_t start,
+                 unsigned elementBytes);
 
     /// Whether the header makes sense within the file. Nothing else may be called if not.
     bool isSound() const { return sound_; }
@@ -50,12 +52,29 @@ private:
     std::uint64_t fileSize_;
     unsigned headerBytes_;
     unsigned elementBytes_;
-    VtuHead::Compression compression_;
+    VtuEncoding::Compression compression_;
     bool base64_;
     std::uint64_t dataOffset_ = 0;          ///< of the first piece within data_
     std::uint64_t bytes_ = 0;               ///< of all values
     std::uint64_t pieceBytes_ = 0;          ///< of the values of every piece but the last
     std::vector<std::uint64_t> blockEnds_;  ///< of compressed blocks, within data_
+    bool sound_ = false;
+};
+
+/// One array of numbers in plain text, of type T; otherwise as EncodedArray.
+template <class T>
+class TextArray {
+public:
+    /// The numbers stand in bytes `start` to `end` of the file.
+    TextArray(int file, std::uint64_t start, std::uint64_t end);
+    bool isSound() const { return sound_; }
+    std::uint64_t elements() const { return firsts_.empty() ? 0 : firsts_.back(); }
+    bool forEachPiece(const std::function<void(std::uint64_t, const char*, std::uint64_t)>& use) const;
+
+private:
+    int file_;
+    std::uint64_t start_, end_;
+    std::vector<std::uint64_t> firsts_;  ///< number of the first value of each piece of text, and of values
     bool sound_ = false;
 };
 

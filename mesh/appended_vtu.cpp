@@ -13,6 +13,7 @@
 #include <mesh/appended_data.h>
 #include <mesh/bookkeeping_names.h>
 #include <mesh/cell_types.h>
+#include <mesh/huge_pages.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -102,6 +103,19 @@ private:
         return cells && soup_.points.size() == head_.points;
     }
 
+    /// Calls `use(array)` with the array's values in whatever form they are.
+    template <class T, class Use>
+    bool withData(const VtuArray& array, const Use& use) const {
+        if (array.form == VtuArray::Form::Text) {
+            return use(TextArray<T>(file_.get(), array.start, array.end));
+        }
+        VtuEncoding encoding = head_.encoding;
+        const bool appended = array.form == VtuArray::Form::Appended;
+        encoding.base64 = encoding.base64 || !appended;
+        const std::uint64_t start = appended ? head_.dataStart + array.start : array.start;
+        return array.start <= file_.size() && use(EncodedArray(file_.get(), file_.size(), encoding, start, sizeof(T)));
+    }
+
     /// Whether every value of the array of cells called `name` is `wanted(i)`, without keeping it.
     template <class Wanted>
     bool isAlways(const std::string& name, const Wanted& wanted) const {
@@ -111,21 +125,22 @@ private:
             }
             return withType(array.type, [&](auto zero) {
                 using T = decltype(zero);
-                const AppendedArray data(file_.get(), file_.size(), head_, array.offset, sizeof(T));
-                std::atomic<bool> always = data.isSound() && data.elements() == head_.cells;
-                const bool read =
-                    always && data.forEachPiece([&](std::uint64_t first, const char* bytes, std::uint64_t count) {
-                        bool same = true;
-                        for (std::uint64_t i = 0; i < count; ++i) {
-                            T value;
-                            std::memcpy(&value, bytes + i * sizeof(T), sizeof(T));
-                            same = same && value == static_cast<T>(wanted(first + i));
-                        }
-                        if (!same) {
-                            always.store(false, std::memory_order_relaxed);
-                        }
-                    });
-                return read && always;
+                return withData<T>(array, [&](const auto& data) {
+                    std::atomic<bool> always = data.isSound() && data.elements() == head_.cells;
+                    const bool read =
+                        always && data.forEachPiece([&](std::uint64_t first, const char* bytes, std::uint64_t count) {
+                            bool same = true;
+                            for (std::uint64_t i = 0; i < count; ++i) {
+                                T value;
+                                std::memcpy(&value, bytes + i * sizeof(T), sizeof(T));
+                                same &= value == static_cast<T>(wanted(first + i));
+                            }
+                            if (!same) {
+                                always.store(false, std::memory_order_relaxed);
+                            }
+                        });
+                    return read && always;
+                });
             });
         }
         return false;
@@ -155,16 +170,17 @@ private:
     bool decode(const VtuArray& array, const MakeRoom& makeRoom, const Convert& convert) {
         return withType(array.type, [&](auto zero) {
             using T = decltype(zero);
-            const AppendedArray data(file_.get(), file_.size(), head_, array.offset, sizeof(T));
-            Out* const out = data.isSound() ? makeRoom(data.elements()) : nullptr;
-            return out != nullptr &&
-                   data.forEachPiece([&](std::uint64_t first, const char* bytes, std::uint64_t count) {
-                       for (std::uint64_t i = 0; i < count; ++i) {
-                           T value;
-                           std::memcpy(&value, bytes + i * sizeof(T), sizeof(T));
-                           out[first + i] = convert(value);
-                       }
-                   });
+            return withData<T>(array, [&](const auto& data) {
+                Out* const out = data.isSound() ? makeRoom(data.elements()) : nullptr;
+                return out != nullptr &&
+                       data.forEachPiece([&](std::uint64_t first, const char* bytes, std::uint64_t count) {
+                           for (std::uint64_t i = 0; i < count; ++i) {
+                               T value;
+                               std::memcpy(&value, bytes + i * sizeof(T), sizeof(T));
+                               out[first + i] = convert(value);
+                           }
+                       });
+            });
         });
     }
 
@@ -173,7 +189,7 @@ private:
             if (count != 3 * head_.points || count == 0) {
                 return nullptr;
             }
-            soup_.points.resize(head_.points);
+            resizeInHugePages(soup_.points, head_.points);
             return &soup_.points[0].x;
         };
         return decode<double>(array, room, [](auto value) { return static_cast<double>(value); });
@@ -186,10 +202,10 @@ private:
         if (array.name == "connectivity") {
             const auto room = [&](std::uint64_t count) -> std::uint32_t* {
                 if (onlyTetrahedra_) {
-                    soup_.tetrahedra.resize(count == 4 * head_.cells ? head_.cells : 0);
+                    resizeInHugePages(soup_.tetrahedra, count == 4 * head_.cells ? head_.cells : 0);
                     return soup_.tetrahedra.empty() ? nullptr : soup_.tetrahedra[0].data();
                 }
-                soup_.connectivity.resize(count);
+                resizeInHugePages(soup_.connectivity, count);
                 return soup_.connectivity.data();
             };
             return decode<std::uint32_t>(array, room, [](auto value) {
@@ -222,8 +238,9 @@ private:
     }
 
     bool takeField(const VtuArray& array, Association association, std::uint64_t places) {
-        if (array.name.starts_with("vtkGhost") || array.name == "vtkValidPointMask") {
-            return false;
+        if (array.name.starts_with("vtkGhost") || array.name == "vtkValidPointMask" ||
+            array.name == "RationalWeights" || array.name == "HigherOrderDegrees") {
+            return false;  // more than a field: VTK's reader knows
         }
         Field field;
         field.name = array.name.empty() ? fmt::format("array {}", soup_.fields.size()) : array.name;
@@ -232,7 +249,7 @@ private:
         field.bookkeeping = isBookkeepingName(array.name);
         const std::uint64_t wanted = places * static_cast<std::uint64_t>(array.components);
         const auto room = [&](std::uint64_t count) -> double* {
-            field.values.resize(count == wanted ? count : 0);
+            resizeInHugePages(field.values, count == wanted ? count : 0);
             return count == wanted ? field.values.data() : nullptr;
         };
         const bool good = decode<double>(array, room, [](auto value) { return static_cast<double>(value); });
@@ -250,13 +267,7 @@ private:
 
 std::optional<CellSoup> readAppendedVtu(const std::string& path) {
     const OpenFile file(path);
-    constexpr std::uint64_t longestHead = 1u << 20;
-    std::string text(static_cast<std::size_t>(std::min(file.size(), longestHead)), '\0');
-    const ssize_t got = file.size() == 0 ? 0 : ::pread(file.get(), text.data(), text.size(), 0);
-    if (got <= 0 || static_cast<std::size_t>(got) != text.size()) {
-        return std::nullopt;
-    }
-    const std::optional<VtuHead> head = parseVtuHead(text);
+    const std::optional<VtuHead> head = file.size() > 0 ? parseVtuHead(file.get()) : std::nullopt;
     return head ? Assembly(file, *head).assemble() : std::nullopt;
 }
 

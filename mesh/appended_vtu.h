@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// The common kind of .vtu file (one piece, all arrays appended, raw or base64, plain, zlib or lz4), read by many
-/// threads straight into a CellSoup: two to five times as fast as VTK's reader, without its copy.
+/// The common kinds of .vtu file (one piece; arrays as text, base64 or appended; plain, zlib or lz4), read by many
+/// threads straight into a CellSoup, without the copies of VTK's reader.
 #pragma once
 
 #include <optional>

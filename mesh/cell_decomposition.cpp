@@ -2,15 +2,18 @@
 #include <mesh/cell_decomposition.h>
 
 #include <algorithm>
+#include <atomic>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <mesh/cell_types.h>
 #include <mesh/cone_decomposition.h>
+#include <mesh/duplicate_cells.h>
 #include <mesh/face_triangulation.h>
 #include <mesh/orientation.h>
 #include <mesh/polyhedron_surface.h>
+#include <mesh/shared_mark.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -30,6 +33,21 @@ CellVerdict orientTetrahedron(const std::vector<glm::dvec3>& points, Tetrahedron
         return finite ? CellVerdict::Flat : CellVerdict::NonFinitePosition;
     }
     return side > 0 ? CellVerdict::Good : CellVerdict::Inverted;
+}
+
+void markUsed(const Tetrahedron& cell, std::vector<std::uint8_t>& used) {
+    for (const PointIndex p : cell) {
+        if (p < used.size()) {
+            setMark(used[p]);
+        }
+    }
+}
+
+/// Makes `worst` at least `found`.
+void raise(std::atomic<CellVerdict>& worst, CellVerdict found) {
+    CellVerdict before = worst.load(std::memory_order_relaxed);
+    while (before < found && !worst.compare_exchange_weak(before, found, std::memory_order_relaxed)) {
+    }
 }
 
 /// Leaves out points that repeat their predecessor: a collapsed edge.
@@ -135,16 +153,34 @@ Decomposition joinBlocks(std::vector<Block>& blocks, CellSoup& soup) {
 }  // namespace
 
 Decomposition takeTetrahedra(const std::vector<glm::dvec3>& points, std::vector<Tetrahedron>&& cells,
-                             std::vector<CellVerdict>& verdicts) {
-    Decomposition result{std::move(cells), {}};
+                             std::vector<CellVerdict>& verdicts, std::vector<std::uint8_t>& used) {
+    Decomposition result{std::move(cells), {}, 0};
     verdicts.resize(result.cells.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, verdicts.size(), 16384),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                          for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                              verdicts[i] = orientTetrahedron(points, result.cells[i]);
-                          }
-                      });
-    if (std::all_of(verdicts.begin(), verdicts.end(), isKept)) {
+    used.assign(points.size(), 0);
+    DuplicateSearch search(result.cells.size(), points.size());
+    std::atomic<CellVerdict> worst = CellVerdict::Good;
+    using Range = tbb::blocked_range<std::size_t>;
+    tbb::parallel_for(Range(0, verdicts.size(), 16384), [&](const Range& range) {
+        CellVerdict worstHere = CellVerdict::Good;
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            Tetrahedron& cell = result.cells[i];
+            markUsed(cell, used);
+            verdicts[i] = orientTetrahedron(points, cell);
+            worstHere = std::max(worstHere, verdicts[i]);
+            if (isKept(verdicts[i])) {
+                search.note(result.cells, static_cast<std::uint32_t>(i));
+            }
+        }
+        raise(worst, worstHere);
+    });
+    for (const std::uint32_t cell : search.find(result.cells)) {
+        verdicts[cell] = CellVerdict::Duplicate;
+        worst = CellVerdict::Duplicate;
+    }
+    if (worst == CellVerdict::Good) {
+        verdicts = {};
+    }
+    if (isKept(worst)) {
         return result;
     }
     std::size_t kept = 0;
@@ -166,7 +202,9 @@ Decomposition decomposeCells(CellSoup& soup, std::vector<CellVerdict>& verdicts)
         const std::size_t end = std::min(verdicts.size(), (i + 1) * blockSize);
         blocks[i] = decomposeBlock(soup, i * blockSize, end, triangulation, verdicts);
     });
-    return joinBlocks(blocks, soup);
+    Decomposition result = joinBlocks(blocks, soup);
+    result.facesFitted = triangulation.facesFitted();
+    return result;
 }
 
 }  // namespace tetralux::mesh

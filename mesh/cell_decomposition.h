@@ -20,12 +20,14 @@ namespace tetralux::mesh {
 struct Decomposition {
     std::vector<Tetrahedron> cells;      ///< every one certainly of positive volume
     std::vector<std::uint32_t> parents;  ///< source cell of each; empty when tetrahedron i is cell i of the source
+    std::uint64_t facesFitted = 0;       ///< quadrilaterals that lie against two triangles and were cut as these are
 };
 
-/// Checks tetrahedra, turns the inverted ones round and leaves out the faulty ones, in parallel and in place.
-/// `verdicts` gets one verdict per cell.
+/// Checks tetrahedra, turns the inverted ones round and leaves out the faulty ones and duplicates, in parallel and in
+/// place. `verdicts` gets one verdict per cell, or none at all if every one is Good; `used` a 1 for each point that a
+/// cell names, else 0.
 Decomposition takeTetrahedra(const std::vector<glm::dvec3>& points, std::vector<Tetrahedron>&& cells,
-                             std::vector<CellVerdict>& verdicts);
+                             std::vector<CellVerdict>& verdicts, std::vector<std::uint8_t>& used);
 
 /// Takes the kept cells of `soup` apart, in parallel. Adds points to `soup` where it needs them and sets verdicts to
 /// Inverted, Folded, Flat or Unsupported (an open polyhedron) as it finds them. Cells must have passed `classifyCells`,

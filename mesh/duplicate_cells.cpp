@@ -2,8 +2,7 @@
 #include <mesh/duplicate_cells.h>
 
 #include <algorithm>
-
-#include <mesh/hash_collisions.h>
+#include <utility>
 
 namespace tetralux::mesh {
 namespace {
@@ -33,34 +32,46 @@ Tetrahedron sortedPoints(Tetrahedron cell) {
     return cell;
 }
 
+bool haveSamePoints(const Tetrahedron& a, const Tetrahedron& b) {
+    // Most that are asked about differ in this already.
+    const bool maybe = (a[0] ^ a[1] ^ a[2] ^ a[3]) == (b[0] ^ b[1] ^ b[2] ^ b[3]);
+    return maybe && sortedPoints(a) == sortedPoints(b);
+}
+
 }  // namespace
 
-std::vector<std::uint8_t> findDuplicateCells(const std::vector<Tetrahedron>& cells, std::size_t pointCount) {
-    // Places go with the smallest point, because neighbours in the list are neighbours in space: a place at random
-    // would miss the caches, which costs ten times as much.
-    constexpr std::uint64_t placesPerPoint = 128;
-    const auto candidates = collisionCandidates(
-        cells.size(), [&](std::size_t i) { return pointsHash(cells[i]); }, placesPerPoint * pointCount,
-        [&](std::size_t i, std::uint64_t hash) {
-            const std::uint64_t smallest = *std::min_element(cells[i].begin(), cells[i].end());
-            return smallest * placesPerPoint + hash % placesPerPoint;
-        });
-    std::vector<std::uint8_t> duplicate;
+// Places go with the smallest point, because neighbours in the list are neighbours in space: a place at random would
+// miss the caches, which costs ten times as much.
+DuplicateSearch::DuplicateSearch(std::size_t cellCount, std::size_t pointCount)
+    : items_(std::max(cellCount, pointCount), 2),
+      slotsPerPoint_(items_.slots() / std::max<std::size_t>(1, pointCount)) {}
+
+void DuplicateSearch::note(const std::vector<Tetrahedron>& cells, std::uint32_t i) {
+    const Tetrahedron& cell = cells[i];
+    const std::uint64_t hash = pointsHash(cell);
+    const std::uint64_t smallest = std::min({cell[0], cell[1], cell[2], cell[3]});
+    items_.note(i, smallest * slotsPerPoint_ + placeBelow(slotsPerPoint_, hash), hash,
+                [&](std::uint32_t other) { return haveSamePoints(cells[other], cell); });
+}
+
+std::vector<std::uint32_t> DuplicateSearch::find(const std::vector<Tetrahedron>& cells) {
+    const EqualItems::Pairs equal = items_.find();
+    std::vector<std::uint32_t> duplicates;
     std::vector<std::pair<Tetrahedron, std::uint32_t>> run;
-    forEachRun(candidates, [&](std::size_t first, std::size_t last) {
+    forEachRun(equal, [&](std::size_t first, std::size_t last) {
         run.clear();
         for (std::size_t i = first; i < last; ++i) {
-            run.emplace_back(sortedPoints(cells[candidates[i].second]), candidates[i].second);
+            run.emplace_back(sortedPoints(cells[equal[i].second]), equal[i].second);
         }
         std::sort(run.begin(), run.end());
         for (std::size_t i = 1; i < run.size(); ++i) {
             if (run[i].first == run[i - 1].first) {
-                duplicate.resize(cells.size(), 0);
-                duplicate[run[i].second] = 1;
+                duplicates.push_back(run[i].second);
             }
         }
     });
-    return duplicate;
+    std::sort(duplicates.begin(), duplicates.end());
+    return duplicates;
 }
 
 }  // namespace tetralux::mesh

@@ -96,6 +96,7 @@ std::size_t FaceTriangulation::fanRoot(std::span<const std::uint32_t> polygon) c
         const int along13 = isInterfaceTriangle(polygon[0], polygon[1], polygon[3]) +
                             isInterfaceTriangle(polygon[1], polygon[2], polygon[3]);
         if (along02 != along13) {
+            facesFitted_.fetch_add(1, std::memory_order_relaxed);
             return along02 > along13 ? 0 : 1;
         }
     }

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <unordered_set>
@@ -31,6 +32,9 @@ public:
     /// same way round as it. The cut depends on the set of points, not on where or which way round the list starts.
     void cut(std::span<const std::uint32_t> polygon, std::vector<Triangle>& out) const;
 
+    /// How many quadrilaterals have been cut as triangles on their other side are.
+    std::uint64_t facesFitted() const { return facesFitted_; }
+
 private:
     bool isInterfaceTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
     std::size_t fanRoot(std::span<const std::uint32_t> canonical) const;
@@ -43,6 +47,7 @@ private:
 
     const std::vector<glm::dvec3>& points_;
     std::unordered_set<Triangle, TriangleHash> interface_;  ///< sorted triples
+    mutable std::atomic<std::uint64_t> facesFitted_{0};
 };
 
 /// Calls `visit(face)` with the point numbers of every face of `cell`, a span valid during the call.

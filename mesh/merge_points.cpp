@@ -5,21 +5,26 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <unordered_map>
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include <mesh/hash_collisions.h>
+#include <mesh/equal_items.h>
 #include <mesh/orientation.h>
+#include <mesh/tet_mesh.h>
 
 namespace tetralux::mesh {
 namespace {
 
-using Representatives = std::vector<std::uint32_t>;  ///< the point that stands for each point
+using PointRange = tbb::blocked_range<std::size_t>;
 
 std::uint64_t positionHash(const glm::dvec3& x) {
     std::uint64_t hash = 1;
@@ -51,19 +56,71 @@ struct ExactSearch {
     std::vector<std::uint32_t> jumps;  ///< points that stand for themselves though an earlier one has their position
 };
 
+/// Places of a table for points. Those of points that lie near each other are near, because successive points mostly
+/// do, and a place at random would miss the caches.
+class PointPlaces {
+public:
+    PointPlaces(const std::vector<glm::dvec3>& points, std::uint64_t slots)
+        : slotsPerBox_(slots / (boxes * boxes * boxes)), slots_(slots) {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        const BoundingBox nothing{glm::dvec3(infinity), glm::dvec3(-infinity)};
+        const BoundingBox bounds = tbb::parallel_reduce(
+            PointRange(0, points.size(), 65536), nothing,
+            [&](const PointRange& range, BoundingBox box) {
+                for (std::size_t p = range.begin(); p != range.end(); ++p) {
+                    if (isFinitePosition(points[p])) {
+                        box.low = glm::min(box.low, points[p]);
+                        box.high = glm::max(box.high, points[p]);
+                    }
+                }
+                return box;
+            },
+            [](const BoundingBox& a, const BoundingBox& b) {
+                return BoundingBox{glm::min(a.low, b.low), glm::max(a.high, b.high)};
+            });
+        low_ = bounds.low;
+        scale_ = static_cast<double>(boxes) / (bounds.high - bounds.low);
+    }
+
+    std::uint64_t operator()(const glm::dvec3& x, std::uint64_t hash) const {
+        if (slotsPerBox_ == 0) {
+            return placeBelow(slots_, hash);
+        }
+        const std::uint64_t box = (boxAlong(x, 2) * boxes + boxAlong(x, 1)) * boxes + boxAlong(x, 0);
+        return box * slotsPerBox_ + placeBelow(slotsPerBox_, hash);
+    }
+
+private:
+    static constexpr std::uint64_t boxes = 64;  // along each axis
+
+    std::uint64_t boxAlong(const glm::dvec3& x, int axis) const {
+        const double share = (x[axis] - low_[axis]) * scale_[axis];
+        return share > 0.0 ? static_cast<std::uint64_t>(std::min(share, static_cast<double>(boxes - 1))) : 0;
+    }
+
+    std::uint64_t slotsPerBox_, slots_;
+    glm::dvec3 low_{0}, scale_{0};
+};
+
 /// Within a run of equal hashes every point is compared with the earlier ones that stand for others.
 ExactSearch findEqualPoints(const CellSoup& soup) {
     ExactSearch found{Representatives(soup.points.size()), {}};
     std::iota(found.representatives.begin(), found.representatives.end(), 0u);
-    const std::size_t places = std::bit_ceil(std::max<std::size_t>(16 * soup.points.size(), 64));
-    const auto candidates = collisionCandidates(
-        soup.points.size(), [&](std::size_t p) { return positionHash(soup.points[p]); }, places,
-        [&](std::size_t, std::uint64_t hash) { return hash & (places - 1); });
+    EqualItems items(soup.points.size(), 4);
+    const PointPlaces placeOf(soup.points, items.slots());
+    tbb::parallel_for(PointRange(0, soup.points.size(), 16384), [&](const PointRange& range) {
+        for (std::size_t p = range.begin(); p != range.end(); ++p) {
+            const std::uint64_t hash = positionHash(soup.points[p]);
+            items.note(static_cast<std::uint32_t>(p), placeOf(soup.points[p], hash), hash,
+                       [&](std::uint32_t other) { return soup.points[other] == soup.points[p]; });
+        }
+    });
+    const EqualItems::Pairs equal = items.find();
     std::vector<std::uint32_t> standing;
-    forEachRun(candidates, [&](std::size_t first, std::size_t last) {
+    forEachRun(equal, [&](std::size_t first, std::size_t last) {
         standing.clear();
         for (std::size_t i = first; i < last; ++i) {
-            const std::uint32_t p = candidates[i].second;
+            const std::uint32_t p = equal[i].second;
             bool jumps = false;
             for (const std::uint32_t earlier : standing) {
                 if (soup.points[earlier] == soup.points[p]) {
@@ -169,19 +226,20 @@ Representatives searchWithin(const CellSoup& soup, double tolerance, MeshReport&
 
 }  // namespace
 
-void mergeCoincidentPoints(CellSoup& soup, std::optional<double> tolerance, MeshReport& report) {
-    const Representatives representatives =
-        tolerance ? searchWithin(soup, *tolerance, report) : searchExactly(soup, report);
+Representatives findCoincidentPoints(const CellSoup& soup, std::optional<double> tolerance, MeshReport& report) {
+    Representatives representatives = tolerance ? searchWithin(soup, *tolerance, report) : searchExactly(soup, report);
     std::uint64_t merged = 0;
     for (std::uint32_t p = 0; p < representatives.size(); ++p) {
         merged += representatives[p] != p ? 1 : 0;
     }
     report.pointsMerged += merged;
-    if (merged > 0) {
-        renumber(soup.connectivity, representatives);
-        renumber(soup.tetrahedra, representatives);
-        renumberPolyhedra(soup, representatives);
-    }
+    return merged > 0 ? std::move(representatives) : Representatives{};
+}
+
+void mergePoints(CellSoup& soup, const Representatives& representatives) {
+    renumber(soup.connectivity, representatives);
+    renumber(soup.tetrahedra, representatives);
+    renumberPolyhedra(soup, representatives);
 }
 
 }  // namespace tetralux::mesh

@@ -25,6 +25,8 @@ extern const MeshFormat exodusFormat;
 extern const MeshFormat cgnsFormat;
 extern const MeshFormat ensightFormat;
 extern const MeshFormat openFoamFormat;
+extern const MeshFormat ucdFormat;
+extern const MeshFormat fluentFormat;
 extern const MeshFormat imageFormat;
 extern const MeshFormat rawFormat;
 extern const MeshFormat gmshFormat;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +13,7 @@
 
 #include <mesh/adjacency.h>
 #include <mesh/point_face_search.h>
+#include <mesh/shared_mark.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -226,8 +226,8 @@ void findNonConforming(const BoundaryFaces& faces, MeshStatistics& result) {
             const PointFaceSearch::Corners& t = faces.triangles[other];
             if (other != i && glm::dot(normal, glm::cross(t[1] - t[0], t[2] - t[0])) < 0.0 &&
                 liesOn(centroid, t, reach)) {
-                std::atomic_ref<std::uint8_t>(marked[i]).store(1, std::memory_order_relaxed);
-                std::atomic_ref<std::uint8_t>(marked[other]).store(1, std::memory_order_relaxed);
+                setMark(marked[i]);
+                setMark(marked[other]);
             }
         });
     });

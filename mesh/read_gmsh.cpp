@@ -53,6 +53,9 @@ public:
 
 private:
     void parseFormat() {
+        if (scan_.peek().starts_with('(')) {
+            scan_.fail("is a mesh of ANSYS Fluent, not of Gmsh; give it the ending .cas");
+        }
         if (scan_.peek() != "$MeshFormat") {
             scan_.fail("does not begin with $MeshFormat as a Gmsh mesh does");
         }

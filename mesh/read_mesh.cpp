@@ -2,6 +2,7 @@
 #include <mesh/read_mesh.h>
 
 #include <array>
+#include <initializer_list>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -16,8 +17,28 @@ namespace {
 
 // One line per format; the first that accepts a source reads it.
 const std::array formats{
-    &vtkXmlFormat,   &legacyVtkFormat, &pvdFormat, &exodusFormat, &cgnsFormat,  &ensightFormat,
-    &openFoamFormat, &imageFormat,     &rawFormat, &gmshFormat,   &meditFormat, &tetgenFormat,
+    &vtkXmlFormat, &legacyVtkFormat, &pvdFormat,   &exodusFormat, &cgnsFormat, &ensightFormat, &openFoamFormat,
+    &ucdFormat,    &fluentFormat,    &imageFormat, &rawFormat,    &gmshFormat, &meditFormat,   &tetgenFormat,
+};
+
+struct OtherKind {
+    std::initializer_list<const char*> extensions;
+    const char* remedy;
+};
+
+// What people have that is no mesh or that nothing here reads, and what to do with it.
+const std::array otherKinds{
+    OtherKind{{".stl", ".off", ".ply", ".obj"}, "is a surface; make tetrahedra of it with `tetralux mesh`"},
+    OtherKind{{".csv", ".xyz"}, "holds points; make tetrahedra of them with `tetralux mesh`"},
+    OtherKind{{".sol"}, "holds the values of a MEDIT mesh; give the .mesh beside it"},
+    OtherKind{{".face", ".edge", ".neigh", ".poly", ".smesh"}, "is no mesh by itself; give TetGen's .ele or .node"},
+    OtherKind{{".vtkhdf", ".hdf", ".hdf5", ".h5", ".xdmf", ".xmf"},
+              "is HDF5 of a kind that is not read; save it as .vtu in ParaView"},
+    OtherKind{{".med", ".unv", ".bdf", ".nas"}, "is not read; convert it to Gmsh's .msh or to .vtu (Gmsh, meshio)"},
+    OtherKind{{".plt", ".szplt", ".tec", ".k", ".d3plot", ".rst", ".odb", ".post", ".fsdb"},
+              "is not read; save it as .vtu, CGNS or Exodus in the program that wrote it or in ParaView"},
+    OtherKind{{".png", ".jpg", ".tif", ".tiff", ".dcm", ".nii", ".nii.gz"},
+              "is an image; save the volume as .nrrd, .mha or .vti (3D Slicer, ITK-SNAP)"},
 };
 
 std::string knownSources() {
@@ -57,6 +78,11 @@ ReadResult readMesh(const std::string& source, const ReadOptions& options) {
         }
     }
     checkReadable(source);
+    for (const OtherKind& kind : otherKinds) {
+        if (hasExtension(source, kind.extensions)) {
+            throw std::runtime_error(fmt::format("{}: {}", source, kind.remedy));
+        }
+    }
     throw std::runtime_error(fmt::format("{}: unknown kind of mesh; give one of {}", source, knownSources()));
 }
 

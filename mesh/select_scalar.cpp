@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <mesh/read_mesh.h>
 
 namespace tetralux::mesh {
 namespace {
 
+using Range = tbb::blocked_range<std::size_t>;
 constexpr int magnitude = -1;
 
 struct Choice {
@@ -165,8 +171,26 @@ bool hasFiniteScalars(const ScalarMesh& mesh, std::size_t cell) {
            std::isfinite(mesh.scalars[t[2]]) && std::isfinite(mesh.scalars[t[3]]);
 }
 
+bool areAllFinite(const std::vector<double>& values) {
+    std::atomic<bool> finite = true;
+    tbb::parallel_for(Range(0, values.size(), 65536), [&](const Range& range) {
+        // 0 for every finite value, else NaN: without a branch this is many values at a time.
+        double sum = 0.0;
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            sum += values[i] * 0.0;
+        }
+        if (sum != 0.0) {
+            finite.store(false, std::memory_order_relaxed);
+        }
+    });
+    return finite;
+}
+
 /// Leaves out cells with a NaN or infinite scalar; the order of the others stays. \returns how many.
 std::uint64_t dropNonFiniteCells(ScalarMesh& mesh, MeshReport& report) {
+    if (areAllFinite(mesh.scalars)) {
+        return 0;
+    }
     std::size_t kept = 0;
     for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
         if (!hasFiniteScalars(mesh, i)) {
@@ -190,22 +214,26 @@ std::uint64_t dropNonFiniteCells(ScalarMesh& mesh, MeshReport& report) {
     return dropped;
 }
 
-void findScalarRange(ScalarMesh& mesh) {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    const auto include = [&](double s) {
-        low = std::min(low, s);
-        high = std::max(high, s);
-    };
-    if (mesh.association == Association::Cell) {
-        std::for_each(mesh.scalars.begin(), mesh.scalars.end(), include);
-    } else {
-        for (const Tetrahedron& cell : mesh.cells) {
-            for (const PointIndex p : cell) {
-                include(mesh.scalars[p]);
+/// Range of the scalar and bounds, of what cells use: every point unless cells have been dropped.
+void findRangeAndBounds(ScalarMesh& mesh, bool allPointsUsed) {
+    const std::vector<std::uint8_t> used = allPointsUsed ? std::vector<std::uint8_t>(mesh.positions.size(), 1)
+                                                         : usedPoints(mesh.cells, mesh.positions.size());
+    mesh.bounds = usedBounds(mesh.positions, used);
+    const bool onPoints = mesh.association == Association::Point;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const auto [low, high] = tbb::parallel_reduce(
+        Range(0, mesh.scalars.size(), 65536), std::pair(infinity, -infinity),
+        [&](const Range& range, std::pair<double, double> found) {
+            for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                if (!onPoints || used[i] != 0) {
+                    found = {std::min(found.first, mesh.scalars[i]), std::max(found.second, mesh.scalars[i])};
+                }
             }
-        }
-    }
+            return found;
+        },
+        [](const auto& a, const auto& b) {
+            return std::pair(std::min(a.first, b.first), std::max(a.second, b.second));
+        });
     mesh.scalarMin = low;
     mesh.scalarMax = high;
 }
@@ -234,8 +262,7 @@ ScalarSelection selectScalar(TetMesh&& mesh, const std::string& name, MeshReport
         throw std::runtime_error(fmt::format(
             "field '{}' is NaN or infinite in every cell; choose another with --scalar", selection.fieldName));
     }
-    findScalarRange(selection.mesh);
-    selection.mesh.bounds = usedBounds(selection.mesh.positions, selection.mesh.cells);
+    findRangeAndBounds(selection.mesh, selection.nonFiniteCells == 0);
     return selection;
 }
 

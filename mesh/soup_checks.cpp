@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -14,6 +13,7 @@
 
 #include <mesh/cell_types.h>
 #include <mesh/orientation.h>
+#include <mesh/shared_mark.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -144,8 +144,30 @@ std::optional<Defect> defectOf(CellVerdict verdict) {
             return Defect::UnsupportedCell;
         case CellVerdict::Flat:
             return Defect::FlatCell;
+        case CellVerdict::Duplicate:
+            return Defect::DuplicateCell;
     }
     return std::nullopt;
+}
+
+template <class TypeOf>
+void reportVerdicts(const TypeOf& typeOf, const std::vector<CellVerdict>& verdicts, MeshReport& report) {
+    for (std::size_t cell = 0; cell < verdicts.size(); ++cell) {
+        if (verdicts[cell] == CellVerdict::Good) {
+            continue;
+        }
+        const CellTypeInfo info = cellTypeInfo(typeOf(cell));
+        if (verdicts[cell] == CellVerdict::LowDimension) {
+            ++report.skipped[fmt::format("not solid ({})", info.name)];
+            continue;
+        }
+        const Defect defect = *defectOf(verdicts[cell]);
+        report.add(defect, cell);
+        if (!isKept(verdicts[cell])) {
+            const bool unsupported = defect == Defect::UnsupportedCell;
+            ++report.skipped[unsupported ? fmt::format("{} ({})", defectName(defect), info.name) : defectName(defect)];
+        }
+    }
 }
 
 void checkFields(const CellSoup& soup) {
@@ -194,29 +216,20 @@ std::vector<CellVerdict> classifyCells(const CellSoup& soup) {
 void reportCells(const std::vector<std::uint8_t>& types, const std::vector<CellVerdict>& verdicts, MeshReport& report) {
     report.cellsRead += types.size();
     reportTypes(types, report);
-    for (std::size_t cell = 0; cell < verdicts.size(); ++cell) {
-        if (verdicts[cell] == CellVerdict::Good) {
-            continue;
-        }
-        const CellTypeInfo info = cellTypeInfo(types[cell]);
-        if (verdicts[cell] == CellVerdict::LowDimension) {
-            ++report.skipped[fmt::format("not solid ({})", info.name)];
-            continue;
-        }
-        const Defect defect = *defectOf(verdicts[cell]);
-        report.add(defect, cell);
-        if (!isKept(verdicts[cell])) {
-            const bool unsupported = defect == Defect::UnsupportedCell;
-            ++report.skipped[unsupported ? fmt::format("{} ({})", defectName(defect), info.name) : defectName(defect)];
-        }
-    }
+    reportVerdicts([&](std::size_t cell) { return types[cell]; }, verdicts, report);
 }
 
-void reportUnusedPoints(const CellSoup& soup, std::size_t pointCount, MeshReport& report) {
-    std::vector<std::uint8_t> used(pointCount, 0);
+void reportTetrahedra(std::size_t count, const std::vector<CellVerdict>& verdicts, MeshReport& report) {
+    report.cellsRead += count;
+    report.cellTypes[cellTypeInfo(cell_type::tetrahedron).name] += count;
+    reportVerdicts([](std::size_t) { return cell_type::tetrahedron; }, verdicts, report);
+}
+
+std::vector<std::uint8_t> namedPoints(const CellSoup& soup) {
+    std::vector<std::uint8_t> used(soup.points.size(), 0);
     const auto mark = [&](std::uint32_t p) {
-        if (p < pointCount) {
-            std::atomic_ref<std::uint8_t>(used[p]).store(1, std::memory_order_relaxed);
+        if (p < used.size()) {
+            setMark(used[p]);
         }
     };
     tbb::parallel_for(Range(0, soup.connectivity.size(), grain), [&](const Range& range) {
@@ -229,7 +242,11 @@ void reportUnusedPoints(const CellSoup& soup, std::size_t pointCount, MeshReport
             std::for_each(soup.tetrahedra[i].begin(), soup.tetrahedra[i].end(), mark);
         }
     });
-    for (std::size_t p = 0; p < pointCount; ++p) {
+    return used;
+}
+
+void reportUnusedPoints(const std::vector<std::uint8_t>& used, MeshReport& report) {
+    for (std::size_t p = 0; p < used.size(); ++p) {
         if (used[p] == 0) {
             report.add(Defect::UnusedPoint, p);
         }

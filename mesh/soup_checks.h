@@ -21,6 +21,7 @@ enum class CellVerdict : std::uint8_t {
     NonFinitePosition,
     Unsupported,  ///< unknown type, or a number of points that its type does not have
     Flat,
+    Duplicate,  ///< of the same points as one before it
 };
 
 inline bool isKept(CellVerdict verdict) {
@@ -37,8 +38,13 @@ std::vector<CellVerdict> classifyCells(const CellSoup& soup);
 
 /// Counts cells, their types and their verdicts into `report`.
 void reportCells(const std::vector<std::uint8_t>& types, const std::vector<CellVerdict>& verdicts, MeshReport& report);
+/// The same for tetrahedra; no verdicts if all are Good.
+void reportTetrahedra(std::size_t count, const std::vector<CellVerdict>& verdicts, MeshReport& report);
 
-/// Counts points below `pointCount` (the source's own, not those that subdivision added) that no cell names.
-void reportUnusedPoints(const CellSoup& soup, std::size_t pointCount, MeshReport& report);
+/// 1 for each point that a cell names.
+std::vector<std::uint8_t> namedPoints(const CellSoup& soup);
+
+/// Counts points with a mark of 0.
+void reportUnusedPoints(const std::vector<std::uint8_t>& used, MeshReport& report);
 
 }  // namespace tetralux::mesh

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <mesh/soup_transfer.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 
@@ -11,10 +12,11 @@ namespace {
 
 constexpr std::size_t largestTransfer = std::size_t{1} << 30;  // one call moves at most 2 GiB
 
-bool writeAll(int file, const void* data, std::size_t size) {
-    const char* at = static_cast<const char*>(data);
+/// Moves all `size` bytes from or to `at` by `move(at, size)`, which is ::read or ::write of a file.
+template <class Byte, class Move>
+bool moveAll(Byte* at, std::size_t size, const Move& move) {
     while (size > 0) {
-        const ssize_t done = ::write(file, at, size < largestTransfer ? size : largestTransfer);
+        const ssize_t done = move(at, std::min(size, largestTransfer));
         if (done < 0 && errno == EINTR) {
             continue;
         }
@@ -27,20 +29,14 @@ bool writeAll(int file, const void* data, std::size_t size) {
     return true;
 }
 
+bool writeAll(int file, const void* data, std::size_t size) {
+    return moveAll(static_cast<const char*>(data), size,
+                   [file](const char* at, std::size_t count) { return ::write(file, at, count); });
+}
+
 bool readAll(int file, void* data, std::size_t size) {
-    char* at = static_cast<char*>(data);
-    while (size > 0) {
-        const ssize_t done = ::read(file, at, size < largestTransfer ? size : largestTransfer);
-        if (done < 0 && errno == EINTR) {
-            continue;
-        }
-        if (done <= 0) {
-            return false;
-        }
-        at += done;
-        size -= static_cast<std::size_t>(done);
-    }
-    return true;
+    return moveAll(static_cast<char*>(data), size,
+                   [file](char* at, std::size_t count) { return ::read(file, at, count); });
 }
 
 template <class Array>

@@ -39,8 +39,8 @@ struct BoundingBox {
     double diagonal() const;
 };
 
-/// Tetrahedra with all the fields of their source. Every index is in range, every position that a
-/// cell uses is finite and every volume is positive: `validation.h` makes it so and says what it left out.
+/// Tetrahedra with all the fields of their source. Every index is in range, every point is used and finite, and every
+/// volume is positive: `validation.h` makes it so and says what it left out.
 struct TetMesh {
     std::vector<glm::dvec3> positions;  ///< mesh units
     std::vector<Tetrahedron> cells;
@@ -66,8 +66,13 @@ struct ScalarMesh {
 /// Six times the signed volume of the tetrahedron (a, b, c, d): det(b − a, c − a, d − a), mesh units cubed.
 double sixVolumes(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d);
 
+/// 1 for each of `pointCount` points that a cell uses, else 0.
+std::vector<std::uint8_t> usedPoints(const std::vector<Tetrahedron>& cells, std::size_t pointCount);
+
 /// Bounds of the points that cells use; a box of zeros when there are no cells.
 BoundingBox usedBounds(const std::vector<glm::dvec3>& positions, const std::vector<Tetrahedron>& cells);
+/// The same for points marked by `usedPoints`.
+BoundingBox usedBounds(const std::vector<glm::dvec3>& positions, const std::vector<std::uint8_t>& used);
 
 /// Gradient of the scalar that is linear in the cell, scalar units per mesh unit; zero for cell data.
 glm::dvec3 cellGradient(const ScalarMesh& mesh, CellIndex cell);

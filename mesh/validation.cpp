@@ -21,24 +21,25 @@ namespace {
 
 /// Drops repeated tetrahedra. A source cell is counted once, however many tetrahedra it became.
 void dropDuplicates(Decomposition& decomposition, std::size_t pointCount, MeshReport& report) {
-    const std::vector<std::uint8_t> duplicate = findDuplicateCells(decomposition.cells, pointCount);
-    if (duplicate.empty()) {
+    DuplicateSearch search(decomposition.cells.size(), pointCount);
+    tbb::parallel_for(std::size_t{0}, decomposition.cells.size(),
+                      [&](std::size_t i) { search.note(decomposition.cells, static_cast<std::uint32_t>(i)); });
+    const std::vector<std::uint32_t> duplicates = search.find(decomposition.cells);
+    if (duplicates.empty()) {
         return;
     }
-    if (decomposition.parents.empty()) {
-        decomposition.parents.resize(decomposition.cells.size());
-        for (std::size_t i = 0; i < decomposition.parents.size(); ++i) {
-            decomposition.parents[i] = static_cast<std::uint32_t>(i);
-        }
-    }
     std::size_t kept = 0;
+    auto duplicate = duplicates.begin();
     std::uint64_t lastCounted = ~std::uint64_t{0};
     for (std::size_t i = 0; i < decomposition.cells.size(); ++i) {
         const std::uint32_t parent = decomposition.parents[i];
-        if (duplicate[i] == 0) {
+        if (duplicate == duplicates.end() || *duplicate != i) {
             decomposition.cells[kept] = decomposition.cells[i];
             decomposition.parents[kept++] = parent;
-        } else if (parent != lastCounted) {
+            continue;
+        }
+        ++duplicate;
+        if (parent != lastCounted) {
             report.add(Defect::DuplicateCell, parent);
             ++report.skipped[defectName(Defect::DuplicateCell)];
             lastCounted = parent;
@@ -175,15 +176,23 @@ void preferGeneralCells(CellSoup& soup) {
 
 /// `decompose` for a soup that holds just tetrahedra.
 Decomposition decomposeTetrahedra(CellSoup& soup, const ReadOptions& options, MeshReport& report) {
-    reportUnusedPoints(soup, soup.points.size(), report);
-    mergeCoincidentPoints(soup, options.mergeTolerance, report);
+    const Representatives representatives = findCoincidentPoints(soup, options.mergeTolerance, report);
+    if (!representatives.empty()) {
+        reportUnusedPoints(namedPoints(soup), report);
+        mergePoints(soup, representatives);
+    }
+    const std::size_t count = soup.tetrahedra.size();
     std::vector<CellVerdict> verdicts;
-    Decomposition decomposition = takeTetrahedra(soup.points, std::move(soup.tetrahedra), verdicts);
-    reportCells(std::vector<std::uint8_t>(verdicts.size(), cell_type::tetrahedron), verdicts, report);
+    std::vector<std::uint8_t> used;
+    Decomposition decomposition = takeTetrahedra(soup.points, std::move(soup.tetrahedra), verdicts, used);
+    if (representatives.empty()) {
+        reportUnusedPoints(used, report);
+    }
+    reportTetrahedra(count, verdicts, report);
     return decomposition;
 }
 
-/// Everything between the checks of single cells and those of tetrahedra.
+/// Everything that is done to cells.
 Decomposition decompose(CellSoup& soup, const ReadOptions& options, MeshReport& report) {
     if (!options.smoothCells) {
         preferTetrahedra(soup);
@@ -194,15 +203,17 @@ Decomposition decompose(CellSoup& soup, const ReadOptions& options, MeshReport& 
         return decomposeTetrahedra(soup, options, report);
     }
     std::vector<CellVerdict> verdicts = classifyCells(soup);
-    reportUnusedPoints(soup, soup.points.size(), report);
-    mergeCoincidentPoints(soup, options.mergeTolerance, report);
+    reportUnusedPoints(namedPoints(soup), report);
+    mergePoints(soup, findCoincidentPoints(soup, options.mergeTolerance, report));
     if (options.smoothCells) {
         smoothCellFields(soup, verdicts);
     }
     const std::vector<std::uint8_t> types = soup.types;
     const auto sources = subdivideCurvedCells(soup, verdicts, options.subdivision);
     Decomposition decomposition = sources ? decomposePieces(soup, *sources, verdicts) : decomposeCells(soup, verdicts);
+    report.facesFitted += decomposition.facesFitted;
     reportCells(types, verdicts, report);
+    dropDuplicates(decomposition, soup.points.size(), report);
     return decomposition;
 }
 
@@ -223,7 +234,6 @@ ReadResult tetMeshFromSoup(CellSoup soup, const ReadOptions& options) {
     soup.connectivity = {};
     soup.faceOffsets = {};
     soup.faceStream = {};
-    dropDuplicates(decomposition, soup.points.size(), result.report);
     if (decomposition.cells.empty()) {
         refuseEmpty(result.report);
     }

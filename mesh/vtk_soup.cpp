@@ -174,6 +174,33 @@ void hideCells(vtkDataSet* data, CellSoup& soup) {
     }
 }
 
+/// Curved cells whose points alone do not say what they are: VTK keeps the rest in arrays of these names.
+void refuseUnreadOrders(vtkUnstructuredGrid* grid) {
+    if (vtkDataArray* degrees = grid->GetCellData()->GetArray("HigherOrderDegrees"); degrees != nullptr) {
+        for (vtkIdType i = 0; i < degrees->GetNumberOfTuples(); ++i) {
+            const double order = degrees->GetComponent(i, 0);
+            for (int axis = 1; axis < degrees->GetNumberOfComponents(); ++axis) {
+                if (degrees->GetComponent(i, axis) != order) {
+                    throw std::runtime_error(
+                        fmt::format("cell {} has a different order along each axis, which is not read; raise such "
+                                    "cells to one order, or export them as linear ones",
+                                    i));
+                }
+            }
+        }
+    }
+    if (vtkDataArray* weights = grid->GetPointData()->GetArray("RationalWeights"); weights != nullptr) {
+        for (vtkIdType i = 0; i < weights->GetNumberOfTuples(); ++i) {
+            if (weights->GetComponent(i, 0) != 1.0) {
+                throw std::runtime_error(
+                    fmt::format("point {} has a rational weight other than 1, which is not read; export the Bézier "
+                                "cells as Lagrange or linear ones",
+                                i));
+            }
+        }
+    }
+}
+
 void takeGridCells(const int dimensions[3], std::uint8_t type, CellSoup& soup) {
     std::array<std::size_t, 3> points{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -199,6 +226,7 @@ CellSoup soupFromDataSet(vtkDataSet* data) {
     CellSoup soup;
     int dimensions[3] = {0, 0, 0};
     if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data)) {
+        refuseUnreadOrders(grid);
         takePoints(grid->GetPoints(), soup);
         takeConnectivity(grid, soup);
         takePolyhedra(grid, soup);

@@ -4,9 +4,13 @@
 #include <array>
 #include <bit>
 #include <cctype>
+#include <cerrno>
 #include <charconv>
 #include <map>
+#include <string_view>
 #include <utility>
+
+#include <unistd.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -54,17 +58,69 @@ bool decodeEntities(std::string& text) {
     return true;
 }
 
+/// A file as text, a window of it at a time: what stands between tags can be gigabytes.
+class FileText {
+public:
+    explicit FileText(int file) : file_(file) {}
+
+    /// From `place` on, as much as a tag may be long; less only at the end of the file.
+    std::string_view at(std::uint64_t place) {
+        if (place < begin_ || place + longestTag > begin_ + window_.size()) {
+            load(place);
+        }
+        return std::string_view(window_).substr(static_cast<std::size_t>(place - begin_));
+    }
+    /// Where the next `character` stands, if one does.
+    std::optional<std::uint64_t> find(char character, std::uint64_t place) {
+        for (std::string_view text = at(place); !text.empty(); text = at(place)) {
+            const std::size_t found = text.find(character);
+            if (found != std::string_view::npos) {
+                return place + found;
+            }
+            place += text.size();
+        }
+        return std::nullopt;
+    }
+
+private:
+    static constexpr std::size_t longestTag = 65536;
+
+    void load(std::uint64_t place) {
+        window_.resize(16 * longestTag);
+        std::size_t size = 0;
+        while (size < window_.size()) {
+            const ssize_t got =
+                ::pread(file_, window_.data() + size, window_.size() - size, static_cast<off_t>(place + size));
+            if (got < 0 && errno == EINTR) {
+                continue;
+            }
+            if (got <= 0) {
+                break;
+            }
+            size += static_cast<std::size_t>(got);
+        }
+        window_.resize(size);
+        begin_ = place;
+    }
+
+    int file_;
+    std::string window_;
+    std::uint64_t begin_ = 0;
+};
+
 /// Takes one tag after another; what stands between them is passed over.
 class TagScanner {
 public:
-    explicit TagScanner(std::string_view text) : text_(text) {}
+    explicit TagScanner(int file) : file_(file) {}
 
     std::optional<Tag> next() {
-        at_ = text_.find('<', at_);
-        if (at_ == std::string_view::npos) {
+        const std::optional<std::uint64_t> start = file_.find('<', position_);
+        if (!start) {
             return std::nullopt;
         }
-        ++at_;
+        tagStart_ = *start;
+        text_ = file_.at(tagStart_ + 1);
+        at_ = 0;
         Tag tag;
         while (at_ < text_.size() && !isSpace(text_[at_]) && text_[at_] != '>' &&
                (text_[at_] != '/' || tag.name.empty())) {
@@ -80,10 +136,20 @@ public:
             return std::nullopt;
         }
         ++at_;
+        position_ = tagStart_ + 1 + at_;
         return tag;
     }
 
-    std::size_t position() const { return at_; }
+    std::uint64_t tagStart() const { return tagStart_; }
+    /// The first character behind the tag that is no space, and where it stands; 0 if there is none near.
+    std::pair<char, std::uint64_t> following() {
+        const std::string_view text = file_.at(position_);
+        std::size_t i = 0;
+        while (i < text.size() && isSpace(text[i])) {
+            ++i;
+        }
+        return {i < text.size() ? text[i] : '\0', position_ + i};
+    }
 
 private:
     bool takeAttribute(Tag& tag) {
@@ -110,8 +176,11 @@ private:
         }
     }
 
-    std::string_view text_;
-    std::size_t at_ = 0;
+    FileText file_;
+    std::uint64_t position_ = 0;  ///< behind the last tag
+    std::uint64_t tagStart_ = 0;
+    std::string_view text_;  ///< of the tag at hand, from its name on
+    std::size_t at_ = 0;     ///< in it
 };
 
 template <class Number>
@@ -122,12 +191,15 @@ bool parseNumber(const std::string& text, Number& number) {
 
 class HeadParser {
 public:
-    explicit HeadParser(std::string_view text) : text_(text), scan_(text) {}
+    explicit HeadParser(int file) : scan_(file) {}
 
     std::optional<VtuHead> parse() {
         while (const std::optional<Tag> tag = scan_.next()) {
             if (tag->name == "AppendedData") {
                 return takeAppended(*tag) ? std::optional(std::move(head_)) : std::nullopt;
+            }
+            if (tag->name == "/VTKFile") {
+                return pieces_ == 1 && !anyAppended_ ? std::optional(std::move(head_)) : std::nullopt;
             }
             if (!take(*tag)) {
                 break;
@@ -138,6 +210,10 @@ public:
 
 private:
     bool take(const Tag& tag) {
+        if (arrayIsOpen_) {  // numbers end where VTK's further remarks begin
+            head_.arrays.back().end = scan_.tagStart();
+            arrayIsOpen_ = false;
+        }
         if (tag.name == "FieldData" || tag.name == "/FieldData") {
             inFieldData_ = tag.name == "FieldData" && !tag.closesItself;
             return true;
@@ -165,13 +241,14 @@ private:
         const std::string native = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
         const std::string width = tag.get("header_type", "UInt32");
         const std::string compressor = tag.get("compressor");
-        head_.headerBytes = width == "UInt64" ? 8 : 4;
-        head_.compression = compressor.empty()                      ? VtuHead::Compression::None
-                            : compressor == "vtkZLibDataCompressor" ? VtuHead::Compression::Zlib
-                                                                    : VtuHead::Compression::Lz4;
+        head_.encoding.headerBytes = width == "UInt64" ? 8 : 4;
+        using Compression = VtuEncoding::Compression;
+        head_.encoding.compression = compressor.empty()                      ? Compression::None
+                                     : compressor == "vtkZLibDataCompressor" ? Compression::Zlib
+                                                                             : Compression::Lz4;
         return tag.get("type") == "UnstructuredGrid" && tag.get("byte_order") == native &&
                (width == "UInt32" || width == "UInt64") &&
-               (head_.compression != VtuHead::Compression::Lz4 || compressor == "vtkLZ4DataCompressor");
+               (head_.encoding.compression != Compression::Lz4 || compressor == "vtkLZ4DataCompressor");
     }
 
     bool openSection(const Tag& tag) {
@@ -189,12 +266,25 @@ private:
 
     bool takeArray(const Tag& tag) {
         VtuArray array;
-        if (!section_ || tag.get("format") != "appended" || !tag.get("TimeStep").empty() ||
-            !parseNumber(tag.get("offset"), array.offset) ||
+        const std::string format = tag.get("format");
+        if (!section_ || !tag.get("TimeStep").empty() ||
             !parseNumber(tag.get("NumberOfComponents", "1"), array.components) || array.components < 1 ||
             array.components > 1000) {
             return false;
         }
+        if (format == "appended") {
+            anyAppended_ = true;
+            if (!parseNumber(tag.get("offset"), array.start)) {
+                return false;
+            }
+        } else {
+            array.form = format == "ascii" ? VtuArray::Form::Text : VtuArray::Form::Inline;
+            array.start = array.end = scan_.following().second;
+            if (tag.closesItself || (format != "ascii" && format != "binary")) {
+                return false;
+            }
+        }
+        arrayIsOpen_ = !tag.closesItself;
         array.name = tag.get("Name");
         array.type = tag.get("type");
         array.place = *section_;
@@ -204,27 +294,25 @@ private:
 
     bool takeAppended(const Tag& tag) {
         const std::string encoding = tag.get("encoding");
-        head_.base64 = encoding == "base64";
-        std::size_t at = scan_.position();
-        while (at < text_.size() && isSpace(text_[at])) {
-            ++at;
-        }
-        head_.dataStart = at + 1;
-        return pieces_ == 1 && (encoding == "raw" || encoding == "base64") && at < text_.size() && text_[at] == '_';
+        head_.encoding.base64 = encoding == "base64";
+        const auto [first, place] = scan_.following();
+        head_.dataStart = place + 1;
+        return pieces_ == 1 && (encoding == "raw" || encoding == "base64") && first == '_';
     }
 
-    std::string_view text_;
     TagScanner scan_;
     VtuHead head_;
     std::optional<VtuArray::Place> section_;
     int pieces_ = 0;
     bool inFieldData_ = false;
+    bool anyAppended_ = false;
+    bool arrayIsOpen_ = false;
 };
 
 }  // namespace
 
-std::optional<VtuHead> parseVtuHead(std::string_view text) {
-    return HeadParser(text).parse();
+std::optional<VtuHead> parseVtuHead(int file) {
+    return HeadParser(file).parse();
 }
 
 }  // namespace tetralux::mesh

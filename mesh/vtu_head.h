@@ -4,34 +4,41 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace tetralux::mesh {
 
-/// One array of a .vtu file with appended data.
+/// One array of a .vtu file.
 struct VtuArray {
     enum class Place { Points, Cells, PointData, CellData };
+    enum class Form { Appended, Inline, Text };  ///< encoded after all XML; encoded in base64 at its place; numbers
     std::string name;
     std::string type;  ///< "Float64", "Int32", …
     Place place = Place::Points;
+    Form form = Form::Appended;
     int components = 1;
-    std::uint64_t offset = 0;  ///< in bytes from the start of the appended data
+    std::uint64_t start = 0;  ///< of the data: in bytes from the start of the appended part, else of the file
+    std::uint64_t end = 0;    ///< of the element, in bytes from the start of the file; not if appended
 };
 
-/// What the XML of a .vtu file with one piece and all arrays appended says.
-struct VtuHead {
+/// How encoded arrays are.
+struct VtuEncoding {
     enum class Compression { None, Zlib, Lz4 };
-    std::uint64_t points = 0, cells = 0;
     unsigned headerBytes = 4;  ///< of each number before an array: 4 or 8
     Compression compression = Compression::None;
     bool base64 = false;
-    std::uint64_t dataStart = 0;  ///< where offsets count from, in bytes from the start of the file
+};
+
+/// What the XML of a .vtu file with one piece says.
+struct VtuHead {
+    std::uint64_t points = 0, cells = 0;
+    VtuEncoding encoding;         ///< base64: of appended arrays; those at their place always are
+    std::uint64_t dataStart = 0;  ///< of the appended part, in bytes from the start of the file
     std::vector<VtuArray> arrays;
 };
 
-/// The head at the beginning of `text`, if it is of the plain kind described above in this machine's byte order;
-/// nothing for any other file, sound or not: VTK's reader knows more dialects and has the better messages.
-std::optional<VtuHead> parseVtuHead(std::string_view text);
+/// The head of an open file, if it is of the plain kind described above in this machine's byte order; nothing for any
+/// other file, sound or not: VTK's reader knows more dialects and has the better messages.
+std::optional<VtuHead> parseVtuHead(int file);
 
 }  // namespace tetralux::mesh

@@ -5,87 +5,12 @@
 #include <mesh/mesh_statistics.h>
 #include <mesh/validation.h>
 
-#include "mesh_checks.h"
+#include "cube_cells.h"
 
 namespace tetralux::mesh {
 namespace {
 
 using namespace test;
-using Cube = std::array<std::uint32_t, 8>;  // corner of the bits zyx
-using Ids = std::vector<std::uint32_t>;
-
-Ids hexahedronOf(const Cube& c) {
-    return {c[0], c[1], c[3], c[2], c[4], c[5], c[7], c[6]};
-}
-
-void addHexahedron(CellSoup& soup, const Cube& c) {
-    appendCell(soup, cell_type::hexahedron, hexahedronOf(c));
-}
-void addVoxel(CellSoup& soup, const Cube& c) {
-    appendCell(soup, cell_type::voxel, c);
-}
-
-void addWedges(CellSoup& soup, const Cube& c) {
-    appendCell(soup, cell_type::wedge, Ids{c[0], c[1], c[3], c[4], c[5], c[7]});
-    appendCell(soup, cell_type::wedge, Ids{c[0], c[3], c[2], c[4], c[7], c[6]});
-}
-
-/// Six pyramids about the middle of the cube.
-void addPyramids(CellSoup& soup, const Cube& c) {
-    glm::dvec3 middle(0.0);
-    for (const std::uint32_t p : c) {
-        middle += soup.points[p] / 8.0;
-    }
-    const std::uint32_t tip = static_cast<std::uint32_t>(soup.points.size());
-    soup.points.push_back(middle);
-    const Ids h = hexahedronOf(c);
-    for (const std::array<std::size_t, 4>& f : {std::array<std::size_t, 4>{0, 1, 2, 3},
-                                                {4, 7, 6, 5},
-                                                {0, 4, 5, 1},
-                                                {1, 5, 6, 2},
-                                                {2, 6, 7, 3},
-                                                {3, 7, 4, 0}}) {
-        appendCell(soup, cell_type::pyramid, Ids{h[f[0]], h[f[1]], h[f[2]], h[f[3]], tip});
-    }
-}
-
-/// The cube as a polyhedron; every other face is listed inwards.
-void addPolyhedron(CellSoup& soup, const Cube& c) {
-    const Ids h = hexahedronOf(c);
-    if (soup.faceOffsets.empty()) {
-        soup.faceOffsets.push_back(0);
-    }
-    appendCell(soup, cell_type::polyhedron, h);
-    for (const std::array<std::size_t, 4>& f : {std::array<std::size_t, 4>{0, 3, 2, 1},
-                                                {4, 7, 6, 5},
-                                                {0, 1, 5, 4},
-                                                {1, 5, 6, 2},
-                                                {2, 3, 7, 6},
-                                                {3, 7, 4, 0}}) {
-        for (const std::uint32_t entry : {4u, h[f[0]], h[f[1]], h[f[2]], h[f[3]]}) {
-            soup.faceStream.push_back(entry);
-        }
-    }
-    soup.faceOffsets.push_back(soup.faceStream.size());
-}
-
-/// Hexahedra where z is even, tetrahedra where it is odd, so that quadrilaterals lie against pairs of triangles.
-void addMixed(CellSoup& soup, const Cube& c) {
-    if (soup.types.size() % 7 < 3) {
-        addHexahedron(soup, c);
-        return;
-    }
-    for (const Ids& t : {Ids{c[0], c[1], c[3], c[7]}, Ids{c[0], c[3], c[2], c[7]}, Ids{c[0], c[2], c[6], c[7]},
-                         Ids{c[0], c[6], c[4], c[7]}, Ids{c[0], c[4], c[5], c[7]}, Ids{c[0], c[5], c[1], c[7]}}) {
-        appendCell(soup, cell_type::tetrahedron, t);
-    }
-}
-
-struct CellKind {
-    const char* name;
-    void (*add)(CellSoup&, const Cube&);
-};
-
 class EveryCell : public testing::TestWithParam<CellKind> {};
 
 /// The cube is filled once, without cracks, and a linear field stays what it is.
@@ -126,10 +51,7 @@ TEST_P(EveryCell, InsideOutIsTurnedRound) {
     EXPECT_EQ(buildAdjacency(result.mesh.cells, result.mesh.positions.size()).boundaryFaces, 108u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Types, EveryCell,
-                         testing::Values(CellKind{"hexahedron", addHexahedron}, CellKind{"voxel", addVoxel},
-                                         CellKind{"wedge", addWedges}, CellKind{"pyramid", addPyramids},
-                                         CellKind{"polyhedron", addPolyhedron}, CellKind{"mixed", addMixed}),
+INSTANTIATE_TEST_SUITE_P(Types, EveryCell, testing::ValuesIn(linearCellKinds),
                          [](const auto& kind) { return std::string(kind.param.name); });
 
 /// A prism over a regular polygon of n sides: volume n/2 · sin(2π/n) · height.

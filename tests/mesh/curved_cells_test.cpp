@@ -6,30 +6,14 @@
 #include <mesh/shape_functions.h>
 #include <mesh/validation.h>
 
-#include "mesh_checks.h"
+#include "cube_cells.h"
 
 namespace tetralux::mesh {
 namespace {
 
 using namespace test;
 
-/// Where the points of a curved cell lie in its parametric cell: the places at which exactly one shape function is 1 on
-/// a fine lattice. Found by search, so that the test knows nothing of VTK's numbering.
-std::vector<std::array<double, 3>> nodePlaces(std::uint8_t type, std::size_t points, int order) {
-    const ReferenceLattice lattice = referenceLattice(cellTypeInfo(type).shape, order);
-    const auto weights = shapeFunctions(type, points, lattice.points);
-    std::vector<std::array<double, 3>> places(points, {-1, -1, -1});
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-        for (std::size_t k = 0; k < points; ++k) {
-            if (std::abs(weights[i][k] - 1.0) < 1e-9) {
-                places[k] = lattice.points[i];
-            }
-        }
-    }
-    return places;
-}
-
-struct CurvedKind {
+struct CurvedCell {
     const char* name;
     std::uint8_t type;
     std::size_t points;
@@ -37,14 +21,13 @@ struct CurvedKind {
     double volume;  ///< of the parametric cell as VTK's pyramid and wedge have it
 };
 
-class EveryCurvedCell : public testing::TestWithParam<CurvedKind> {};
+class EveryCurvedCell : public testing::TestWithParam<CurvedCell> {};
 
 /// One cell with its points where the linear map of the parametric cell puts them.
-CellSoup straightCell(const CurvedKind& kind) {
+CellSoup straightCell(const CurvedCell& kind) {
     CellSoup soup;
     std::vector<std::uint32_t> ids;
-    const auto linear = referenceLattice(cellTypeInfo(kind.type).shape, 1);
-    for (const std::array<double, 3>& place : nodePlaces(kind.type, kind.points, kind.order)) {
+    for (const std::array<double, 3>& place : curvedNodes(kind.type, kind.points, kind.order).places) {
         EXPECT_GE(place[0], 0.0) << "a point of the cell was not found";
         const bool pyramid = cellTypeInfo(kind.type).shape == Shape::Pyramid;
         const double shrink = pyramid ? 1.0 - place[2] : 1.0;  // VTK's r and s run over every layer of a pyramid
@@ -70,17 +53,17 @@ TEST_P(EveryCurvedCell, StraightOnesKeepVolumeAndLinearField) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Types, EveryCurvedCell,
-                         testing::Values(CurvedKind{"tet10", cell_type::quadraticTetrahedron, 10, 2, 1.0 / 6.0},
-                                         CurvedKind{"hex20", cell_type::quadraticHexahedron, 20, 2, 1.0},
-                                         CurvedKind{"hex24", cell_type::biquadraticQuadraticHexahedron, 24, 2, 1.0},
-                                         CurvedKind{"hex27", cell_type::triquadraticHexahedron, 27, 2, 1.0},
-                                         CurvedKind{"wedge12", cell_type::quadraticLinearWedge, 12, 2, 0.5},
-                                         CurvedKind{"wedge15", cell_type::quadraticWedge, 15, 2, 0.5},
-                                         CurvedKind{"wedge18", cell_type::biquadraticQuadraticWedge, 18, 2, 0.5},
-                                         CurvedKind{"pyramid13", cell_type::quadraticPyramid, 13, 2, 1.0 / 3.0},
-                                         CurvedKind{"lagrange_tet35", cell_type::lagrangeTetrahedron, 35, 4, 1.0 / 6.0},
-                                         CurvedKind{"lagrange_hex64", cell_type::lagrangeHexahedron, 64, 3, 1.0},
-                                         CurvedKind{"lagrange_wedge40", cell_type::lagrangeWedge, 40, 3, 0.5}),
+                         testing::Values(CurvedCell{"tet10", cell_type::quadraticTetrahedron, 10, 2, 1.0 / 6.0},
+                                         CurvedCell{"hex20", cell_type::quadraticHexahedron, 20, 2, 1.0},
+                                         CurvedCell{"hex24", cell_type::biquadraticQuadraticHexahedron, 24, 2, 1.0},
+                                         CurvedCell{"hex27", cell_type::triquadraticHexahedron, 27, 2, 1.0},
+                                         CurvedCell{"wedge12", cell_type::quadraticLinearWedge, 12, 2, 0.5},
+                                         CurvedCell{"wedge15", cell_type::quadraticWedge, 15, 2, 0.5},
+                                         CurvedCell{"wedge18", cell_type::biquadraticQuadraticWedge, 18, 2, 0.5},
+                                         CurvedCell{"pyramid13", cell_type::quadraticPyramid, 13, 2, 1.0 / 3.0},
+                                         CurvedCell{"lagrange_tet35", cell_type::lagrangeTetrahedron, 35, 4, 1.0 / 6.0},
+                                         CurvedCell{"lagrange_hex64", cell_type::lagrangeHexahedron, 64, 3, 1.0},
+                                         CurvedCell{"lagrange_wedge40", cell_type::lagrangeWedge, 40, 3, 0.5}),
                          [](const auto& kind) { return std::string(kind.param.name); });
 
 TEST(ReferenceLattice, PiecesFillTheCell) {

@@ -69,7 +69,7 @@ TEST(ReadMesh, SourcesThatCannotBeRead) {
     expectError(reading(folder.file("no.xyz")), "no.xyz: no such file");
     expectError(reading(folder.file("")), "is a directory");
     expectError(reading(folder.write("zero.vtu", "")), "zero.vtu: is empty");
-    expectError(reading(folder.write("a.xyz", "1 2 3")), "a.xyz: unknown kind of mesh; give one of VTK XML");
+    expectError(reading(folder.write("a.abc", "1 2 3")), "a.abc: unknown kind of mesh; give one of VTK XML");
     expectError(reading("bucky:1"), "2 to 1000");
 }
 

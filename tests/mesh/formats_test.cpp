@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// One mesh in every kind of file, whole and damaged, and the files that nothing reads.
+#include <functional>
+
+#include "damage.h"
+#include "small_files.h"
+
+namespace tetralux::mesh {
+namespace {
+
+using namespace test;
+
+TEST(Formats, OneMeshFromEveryKindOfFile) {
+    for (const SmallMesh& small : smallMeshes()) {
+        SCOPED_TRACE(small.source);
+        const TemporaryFolder folder;
+        ReadResult result = readMesh(written(small, folder));
+        EXPECT_EQ(result.mesh.cells.size(), 2u);
+        EXPECT_NEAR(totalVolume(result.mesh), smallMeshVolume, 1e-7);
+        EXPECT_TRUE(result.report.defects.empty());
+        if (small.hasValues) {
+            const auto onPoints = [](const Field& field) { return field.association == Association::Point; };
+            std::erase_if(result.mesh.fields, std::not_fn(onPoints));  // regions and materials
+            ASSERT_EQ(result.mesh.fields.size(), 1u);
+            EXPECT_LT(largestError(result.mesh, smallMeshField), 1e-6);
+        }
+    }
+}
+
+/// The short form of read_damaged, of one file of each kind: a crash ends this test, a hang its time limit.
+TEST(Formats, DamagedCopiesAreReadOrRefused) {
+    constexpr std::uint64_t seeds = 4;
+    for (const SmallMesh& small : smallMeshes()) {
+        const TemporaryFolder folder;
+        const std::string source = written(small, folder);
+        for (const SmallFile& file : small.files) {
+            for (const Damage damage : damages) {
+                for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+                    writeFile(folder.file(file.name), damagedCopy(file.content, damage, seed));
+                    const ReadingEnd end = readAll(source);
+                    EXPECT_TRUE(end == ReadingEnd::Mesh || end == ReadingEnd::Refusal)
+                        << file.name << ", " << damageName(damage) << ", seed " << seed;
+                }
+            }
+            folder.write(file.name, file.content);
+        }
+    }
+}
+
+TEST(Formats, WhatIsNotReadSaysWhatToDo) {
+    const TemporaryFolder folder;
+    const auto reading = [&](const std::string& name, const std::string& content) {
+        return [path = folder.write(name, content)] { readMesh(path); };
+    };
+    expectError(reading("a.stl", "solid"), "a.stl: is a surface; make tetrahedra of it with `tetralux mesh`");
+    expectError(reading("a.csv", "x,y,z"), "a.csv: holds points; make tetrahedra");
+    expectError(reading("a.sol", "x"), "a.sol: holds the values of a MEDIT mesh; give the .mesh");
+    expectError(reading("a.vtkhdf", "x"), "a.vtkhdf: is HDF5");
+    expectError(reading("a.inp", "*HEADING\n*NODE\n"), "a.inp: is a file of Abaqus");
+    expectError(reading("a.msh", "(0 \"Fluent\")\n"), "is a mesh of ANSYS Fluent");
+    expectError(reading("a.cas", "no parenthesis"), "a.cas: does not begin as a case of ANSYS Fluent");
+    expectError(reading("a.xyz9", "x"), "a.xyz9: unknown kind of mesh; give one of VTK XML");
+}
+
+/// Cells that have the number of points of a uniform order but are not of one, and weights that change the shape.
+TEST(Formats, OrdersAndWeightsThatAreNotReadAreNamed) {
+    const TemporaryFolder folder;
+    const auto hexahedron = [&](const std::string& pointData, const std::string& cellData) {
+        return folder.write(
+            "h.vtu",
+            "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"><UnstructuredGrid><Piece NumberOfPoints=\"8\" "
+            "NumberOfCells=\"1\">" +
+                pointData + cellData +
+                "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 1 1 0 0 1 0 "
+                "0 0 1 1 0 1 1 1 1 0 1 1</DataArray></Points><Cells><DataArray type=\"Int64\" Name=\"connectivity\" "
+                "format=\"ascii\">0 1 2 3 4 5 6 7</DataArray><DataArray type=\"Int64\" Name=\"offsets\" "
+                "format=\"ascii\">8</DataArray><DataArray type=\"UInt8\" Name=\"types\" "
+                "format=\"ascii\">79</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>");
+    };
+    const auto weights = [](const std::string& values) {
+        return "<PointData RationalWeights=\"RationalWeights\"><DataArray type=\"Float64\" Name=\"RationalWeights\" "
+               "format=\"ascii\">" +
+               values + "</DataArray></PointData>";
+    };
+    const auto degrees = [](const std::string& values) {
+        return "<CellData HigherOrderDegrees=\"HigherOrderDegrees\"><DataArray type=\"Float64\" "
+               "NumberOfComponents=\"3\" Name=\"HigherOrderDegrees\" "
+               "format=\"ascii\">" +
+               values + "</DataArray></CellData>";
+    };
+    EXPECT_NEAR(totalVolume(readMesh(hexahedron(weights("1 1 1 1 1 1 1 1"), degrees("1 1 1"))).mesh), 1.0, 1e-14);
+    expectError([&] { readMesh(hexahedron(weights("1 1 2 1 1 1 1 1"), "")); },
+                "h.vtu: point 2 has a rational weight other than 1");
+    expectError([&] { readMesh(hexahedron("", degrees("1 3 1"))); }, "h.vtu: cell 0 has a different order along each");
+}
+
+}  // namespace
+}  // namespace tetralux::mesh

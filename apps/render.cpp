@@ -67,6 +67,8 @@ void tellPreview(const std::string& path, const RenderOptions& options, const pr
 void tell(const RenderOptions& options, const std::vector<std::string>& paths, const SceneRenderer& renderer) {
     const RenderRecord& record = renderer.record();
     for (const std::string& line : defectLines(record.mesh)) fmt::print("{}: {}\n", options.source, line);
+    for (const auto& [reason, count] : record.mesh.skipped)
+        if (reason.starts_with("not solid")) fmt::print("{}: left out: {} {}\n", options.source, count, reason);
     if (record.verification)
         fmt::print(
             "error against the reference: rmse {:.2g} (95 % sure: not above {:.2g}), max {:.2g} in {} pixels (95 % "

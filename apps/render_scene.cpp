@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <stdexcept>
@@ -12,6 +13,7 @@
 
 #include <apps/stopwatch.h>
 #include <mesh/read_mesh.h>
+#include <mesh/volume_samples.h>
 #include <preint/transfer_function.h>
 #include <projection/opaque_layer.h>
 
@@ -58,14 +60,49 @@ glm::dvec2 rangeOf(const RenderOptions& options, const mesh::ScalarMesh& mesh) {
 }
 
 /// In absolute units: over the window if there is one, else over the field's range.
-preint::TransferFunction resolvedFor(const RenderOptions& options, const preint::TransferFunction& function,
-                                     const mesh::ScalarMesh& mesh) {
+preint::TransferFunction resolvedWith(double extent, const RenderOptions& options,
+                                      const preint::TransferFunction& function, const mesh::ScalarMesh& mesh) {
     const glm::dvec2 range = rangeOf(options, mesh);
-    // what "per extent" in a transfer function means for this mode (preint::TransferFunction::extinctionPerExtent)
-    const bool perScalar = projection::integralOf(options.settings.mode) == preint::Integral::ScaleInvariant;
-    const double extent = perScalar ? range.y - range.x : thickness(mesh.bounds);
     return options.window ? preint::windowed(function, range.x, range.y, extent)
                           : preint::resolved(function, range.x, range.y, extent);
+}
+
+/// The default function, with the extinction that shows this very mesh: where it is thin, or where most of it has low
+/// values, more than its box tells. Never less than the function's own along the mean way through a cube.
+preint::TransferFunction resolvedDefault(const RenderOptions& options, const preint::TransferFunction& function,
+                                         const mesh::ScalarMesh& mesh) {
+    constexpr double wantedOpacity = 0.6;  // of the mean way, if it had one value, on average over the volume
+    constexpr double mostAdded = 8.0;
+    const mesh::VolumeSamples samples = mesh::sampleVolume(mesh);
+    if (samples.scalars.empty() || !(samples.meanWay > 0.0))
+        return resolvedWith(thickness(mesh.bounds), options, function, mesh);
+    const double extent = std::numbers::sqrt3 * samples.meanWay;
+    const preint::TransferFunction plain = resolvedWith(extent, options, function, mesh);
+    std::vector<double> depths;
+    for (const double scalar : samples.scalars) depths.push_back(samples.meanWay * plain.extinctionAt(scalar));
+    const auto opacity = [&](double factor) {
+        double sum = 0.0;
+        for (const double depth : depths) sum -= std::expm1(-factor * depth);
+        return sum / static_cast<double>(depths.size());
+    };
+    double low = 1.0, high = mostAdded;
+    for (int halving = 0; halving < 10 && opacity(low) < wantedOpacity; ++halving) {
+        const double middle = std::sqrt(low * high);
+        (opacity(middle) < wantedOpacity ? low : high) = middle;
+    }
+    return resolvedWith(extent / low, options, function, mesh);
+}
+
+/// In absolute units: over the window if there is one, else over the field's range.
+preint::TransferFunction resolvedFor(const RenderOptions& options, const preint::TransferFunction& function,
+                                     const mesh::ScalarMesh& mesh) {
+    // what "per extent" in a transfer function means for this mode (preint::TransferFunction::extinctionPerExtent)
+    if (projection::integralOf(options.settings.mode) == preint::Integral::ScaleInvariant) {
+        const glm::dvec2 range = rangeOf(options, mesh);
+        return resolvedWith(range.y - range.x, options, function, mesh);
+    }
+    return options.transferFunction.empty() ? resolvedDefault(options, function, mesh)
+                                            : resolvedWith(thickness(mesh.bounds), options, function, mesh);
 }
 
 projection::Camera cameraFor(const RenderOptions& options, const mesh::BoundingBox& bounds) {

@@ -4,6 +4,7 @@
 #include <projection/image.h>
 
 #include <cmath>
+#include <functional>
 
 #include "command_line_test.h"
 
@@ -127,6 +128,61 @@ TEST_F(RenderCommand, DefaultViewHoldsTheWholeMesh) {
             }
         EXPECT_GT(covered, 20 * 20 / 5) << size;
     }
+}
+
+/// Tetrahedra of the cubes of an n³ grid for which `keep` holds, in a unit of their own, with s = `value`.
+TinyMesh cubes(int n, double unit, const std::function<bool(int, int, int)>& keep,
+               const std::function<double(double, double, double)>& value) {
+    TinyMesh mesh;
+    for (int k = 0; k <= n; ++k)
+        for (int j = 0; j <= n; ++j)
+            for (int i = 0; i <= n; ++i) {
+                mesh.points.push_back({unit * i, unit * j, unit * k});
+                mesh.values.push_back(value(i, j, k));
+            }
+    const auto at = [n](int i, int j, int k) { return i + (n + 1) * (j + (n + 1) * k); };
+    for (int k = 0; k < n; ++k)
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i) {
+                if (!keep(i, j, k)) continue;
+                int c[8];
+                for (int b = 0; b < 8; ++b) c[b] = at(i + (b & 1), j + (b >> 1 & 1), k + (b >> 2));
+                const int inner[6][2] = {{1, 3}, {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}};
+                for (const auto& edge : inner) mesh.cells.push_back({c[0], c[edge[0]], c[edge[1]], c[7]});
+            }
+    return mesh;
+}
+
+TEST_F(RenderCommand, UnitsDoNotChangeTheDefaultPicture) {
+    const auto whole = [](int, int, int) { return true; };
+    const auto slope = [](double x, double y, double z) { return x + 0.3 * y * y + 0.1 * z; };
+    for (const double unit : {1e-6, 1.0, 1e6}) {
+        write("a.vtu", vtuText(cubes(3, unit, whole, slope)));
+        expectGood(fmt::format("render a.vtu -o {:g}.exr --size 24x24 --engine reference", unit));
+    }
+    const Image one = readImage(path("1.exr"));
+    for (const char* other : {"1e-06.exr", "1e+06.exr"})
+        EXPECT_LE(projection::compareImages(readImage(path(other)), one).max, 1e-5) << other;  // coordinates round
+}
+
+/// A thin sheet along the diagonal of its box, and a block that has low values almost everywhere: both show.
+TEST_F(RenderCommand, TheDefaultPictureShowsThinPartsAndLowValues) {
+    const auto opacity = [&](const TinyMesh& mesh) {
+        write("a.vtu", vtuText(mesh));
+        expectGood("render a.vtu -o a.exr --size 32x32 --engine reference");
+        const Image image = readImage(path("a.exr"));
+        double sum = 0, covered = 0;
+        for (const glm::vec4& pixel : image.pixels) {
+            sum += pixel.w;
+            covered += pixel.w > 0 ? 1 : 0;
+        }
+        return sum / covered;
+    };
+    const auto diagonal = [](int i, int j, int) { return i == j; };
+    EXPECT_GT(opacity(cubes(10, 1.0, diagonal, [](double x, double, double) { return x; })), 0.5);
+    const auto whole = [](int, int, int) { return true; };
+    const auto corner = [](double x, double y, double z) { return x + y + z < 1.5 ? 100.0 : 1.0; };
+    EXPECT_GT(opacity(cubes(10, 1.0, whole, corner)), 0.35);  // pixels at the rim see little; 0.2 without
 }
 
 TEST_F(RenderCommand, VerifyMeasuresTheError) {

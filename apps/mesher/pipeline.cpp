@@ -8,6 +8,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <mesh/write_vtu.h>
 
@@ -118,7 +120,12 @@ nlohmann::json makeMesh(const Options& options, const std::string& temporary, co
     nlohmann::json report;
     report["input"] = options.input;
     listener.stage("reading");
-    Input input = readInput(options.input);
+    std::vector<std::string> leftOut;
+    Input input = readInput(options.input, leftOut);
+    for (const std::string& name : leftOut)
+        listener.note(fmt::format(
+            "left out: field {}, as its values are on polygons; only those on points are carried inward", name));
+    report["fields_left_out"] = leftOut;
     mesh::TetMesh mesh = std::holds_alternative<mesh::ReadResult>(input)
                              ? cellsOf(std::get<mesh::ReadResult>(std::move(input)), listener, report)
                              : meshSoup(std::get<PolygonSoup>(std::move(input)), options, deadline, listener, report);

@@ -5,6 +5,7 @@
 #include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
+#include <vtkCellData.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkIdList.h>
@@ -91,6 +92,13 @@ PolygonSoup soupOf(vtkPolyData* data, const std::string& path) {
     return soup;
 }
 
+void nameCellFields(vtkPolyData* data, std::vector<std::string>* names) {
+    for (int a = 0; names != nullptr && a < data->GetCellData()->GetNumberOfArrays(); ++a) {
+        const char* name = data->GetCellData()->GetArrayName(a);
+        names->emplace_back(name != nullptr ? name : fmt::format("field{}", a));
+    }
+}
+
 }  // namespace
 
 bool isLegacyPolyData(const std::string& path) {
@@ -104,7 +112,7 @@ bool isLegacyPolyData(const std::string& path) {
     return false;
 }
 
-PolygonSoup readPolyData(const std::string& path) {
+PolygonSoup readPolyData(const std::string& path, std::vector<std::string>* leftOut) {
     if (!std::filesystem::is_regular_file(path))
         throw std::runtime_error(fmt::format("{}: cannot be opened: check the name and the permissions", path));
     if (lowerEnding(path) == ".vtk") {
@@ -112,10 +120,14 @@ PolygonSoup readPolyData(const std::string& path) {
         reader->ReadAllScalarsOn();
         reader->ReadAllVectorsOn();
         reader->ReadAllFieldsOn();
-        return soupOf(readWith(reader.Get(), path), path);
+        vtkPolyData* const data = readWith(reader.Get(), path);
+        nameCellFields(data, leftOut);
+        return soupOf(data, path);
     }
     const vtkNew<vtkXMLPolyDataReader> reader;
-    return soupOf(readWith(reader.Get(), path), path);
+    vtkPolyData* const data = readWith(reader.Get(), path);
+    nameCellFields(data, leftOut);
+    return soupOf(data, path);
 }
 
 TriangleSurface triangulatePolygons(const PolygonSoup& soup) {

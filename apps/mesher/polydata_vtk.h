@@ -4,14 +4,16 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "geometry.h"
 
 namespace tetralux::mesher {
 
 /// Reads polygons and triangle strips, or points alone, with their point arrays from `.vtp` or a legacy `.vtk` file.
+/// `leftOut`, if given, gets the names of the arrays on polygons, which have no place inside a volume.
 /// \throws std::runtime_error naming the file when it is broken.
-PolygonSoup readPolyData(const std::string& path);
+PolygonSoup readPolyData(const std::string& path, std::vector<std::string>* leftOut = nullptr);
 
 /// Whether a `.vtk` file says that it holds polygonal data.
 bool isLegacyPolyData(const std::string& path);

@@ -160,6 +160,25 @@ TEST_F(Mesher, CarriesALinearFieldThroughThePointsItAdds) {
     }
 }
 
+TEST_F(Mesher, ValuesOnPolygonsAreNamedAndThoseOnPointsKept) {
+    write("cube.vtp",
+          R"(<VTKFile type="PolyData" version="1.0"><PolyData><Piece NumberOfPoints="8" NumberOfPolys="6">
+<PointData><DataArray type="Float64" Name="heat" format="ascii">0 1 2 3 4 5 6 7</DataArray></PointData>
+<CellData><DataArray type="Float64" Name="pressure" format="ascii">1 2 3 4 5 6</DataArray></CellData>
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">
+0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1</DataArray></Points>
+<Polys><DataArray type="Int64" Name="connectivity" format="ascii">
+0 2 3 1 4 5 7 6 0 1 5 4 2 6 7 3 0 4 6 2 1 3 7 5</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">4 8 12 16 20 24</DataArray></Polys>
+</Piece></PolyData></VTKFile>)");
+    const Outcome outcome = run({"cube.vtp", "-o", "cube.vtu", "--report", "report.json"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("left out: field pressure"), std::string::npos) << outcome.out;
+    const auto report = nlohmann::json::parse(contentOf(folder_ / "report.json"));
+    EXPECT_EQ(report["fields_left_out"], nlohmann::json::array({"pressure"}));
+    EXPECT_EQ(report["fields"], nlohmann::json::array({"heat"}));
+}
+
 TEST_F(Mesher, CavitiesStayEmptyAndShellsMustFaceTheRightSide) {
     const TriangleSurface outer = sphere(glm::dvec3(0.0), 1.0, 3);
     TriangleSurface inner = sphere(glm::dvec3(0.1, 0.0, 0.0), 0.5, 2);

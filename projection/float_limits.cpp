@@ -14,9 +14,10 @@ namespace tetralux::projection {
 namespace {
 
 constexpr double largestDepthError = 1e-3;
-constexpr double planeError = 1e-7;   // of the longest edge
-constexpr double obliqueness = 3.0;   // of the error of a length over that of a plane
-constexpr double opaqueDepth = 20.0;  // exp(−20) is below float's step: more or less depth does not show
+constexpr double planeError = 1e-7;          // of the longest edge
+constexpr double obliqueness = 3.0;          // of the error of a length over that of a plane
+constexpr double largestScalarError = 3e-4;  // of a cell's range, where an isosurface may be crossed
+constexpr double opaqueDepth = 20.0;         // exp(−20) is below float's step: more or less depth does not show
 
 double largestExtinction(const preint::TransferFunction& function, double low, double high) {
     double largest = std::max(function.extinctionAt(low), function.extinctionAt(high));
@@ -43,6 +44,21 @@ CellShape shapeOf(const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {
     }
     const double volume = std::abs(mesh::sixVolumes(p[0] / longest, p[1] / longest, p[2] / longest, p[3] / longest));
     return {longest, largestFace > 0 ? longest * volume / largestFace : 0.0};
+}
+
+/// Whether an isosurface may be met twice or not at all: both sides of a face must agree about its scalar.
+bool mayMissIsosurface(const mesh::ScalarMesh& mesh, mesh::CellIndex cell, const preint::TransferFunction& function) {
+    double low = mesh.scalarAt(cell, 0), high = low;
+    for (int k = 1; k < 4; ++k) {
+        low = std::min(low, mesh.scalarAt(cell, k));
+        high = std::max(high, mesh.scalarAt(cell, k));
+    }
+    const bool crossed = std::any_of(
+        function.isosurfaces.begin(), function.isosurfaces.end(),
+        [&](const auto& surface) { return surface.opacity > 0 && surface.value >= low && surface.value <= high; });
+    if (!crossed) return false;
+    const CellShape shape = shapeOf(mesh, cell);
+    return planeError * shape.longestEdge > largestScalarError * shape.leastAltitude;
 }
 
 double depthError(const mesh::ScalarMesh& mesh, mesh::CellIndex cell, const preint::TransferFunction& function,
@@ -73,14 +89,17 @@ std::vector<mesh::CellIndex> cellsBeyondFloat(const mesh::ScalarMesh& mesh, cons
     const double most = integral == preint::Integral::Standard
                             ? strongest * mesh.bounds.diagonal() * planeError * obliqueness
                             : strongest * (mesh.scalarMax - mesh.scalarMin);
-    if (!(most > largestDepthError)) return {};
+    if (!(most > largestDepthError) && function.isosurfaces.empty()) return {};
 
     tbb::enumerable_thread_specific<std::vector<mesh::CellIndex>> found;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.cells.size(), 4096), [&](const auto& range) {
         auto& mine = found.local();
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             const auto cell = static_cast<mesh::CellIndex>(i);
-            if (depthError(mesh, cell, function, integral, strongest) > largestDepthError) mine.push_back(cell);
+            if ((most > largestDepthError &&
+                 depthError(mesh, cell, function, integral, strongest) > largestDepthError) ||
+                mayMissIsosurface(mesh, cell, function))
+                mine.push_back(cell);
         }
     });
     std::vector<mesh::CellIndex> all;

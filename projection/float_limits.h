@@ -12,8 +12,10 @@ namespace tetralux::projection {
 /// Cells in which float planes (cell_setup.h) may miss the optical depth of a segment by more than 1e-3. A plane errs
 /// by some 1e-7 of the cell's longest edge e, whatever its thickness. So the depth τ·l errs by up to 3e-7·τ·e, which
 /// shows in flat cells only, since others of that extinction are opaque; and the scalar of a cell with least altitude h
-/// errs by up to 1e-7·e/h of its range. Empty for every scene but those of extreme extinction or flatness: engines have
-/// the pixels of these cells composed exactly.
+/// errs by up to 1e-7·e/h of its range. An
+/// isosurface within the range of a cell with e/h > 3000 may be met twice or never, since that cell and its neighbour
+/// differ about the scalar on their face. Empty for every scene but those of extreme extinction or flatness: engines
+/// have the pixels of these cells composed exactly.
 std::vector<mesh::CellIndex> cellsBeyondFloat(const mesh::ScalarMesh& mesh, const preint::TransferFunction& function,
                                               preint::Integral integral);
 

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include <apps/add_option.h>
+#include <apps/light_options.h>
 #include <apps/option_values.h>
 #include <apps/read_options.h>
 #include <preint/transfer_function.h>
@@ -20,14 +21,6 @@ namespace tetralux::apps {
 namespace {
 
 constexpr int usualVerifiedPixels = 1000;
-
-shading::Light parseLight(const std::string& text) {
-    const glm::dvec3 direction = parseVector("--light", text);
-    const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
-    if (largest == 0.0)
-        throw std::runtime_error("--light: 0,0,0 has no direction; give the direction towards the light");
-    return {glm::normalize(direction / largest)};
-}
 
 void addMeshOptions(CLI::App& command, RenderOptions& options) {
     command.add_option("--scalar", options.scalar,
@@ -54,22 +47,10 @@ void addPictureOptions(CLI::App& command, RenderOptions& options) {
     addParsed(command, "--background", options.background, parseBackground, "colour put under the picture, or none",
               "r,g,b");
     command.add_flag("--silhouette", options.settings.shading.silhouette, "thin layers seen edge-on become denser");
-    command
-        .add_option_function<std::vector<std::string>>(
-            "--light",
-            [&options](const std::vector<std::string>& texts) {
-                for (const std::string& text : texts) options.settings.shading.lights.push_back(parseLight(text));
-            },
-            "direction towards a light; may be given several times")
-        ->type_name("dx,dy,dz")
-        ->allow_extra_args(false);
-    addNumber<double>(command, "--ambient", options.settings.shading.ambient, notNegative, "a number from 0",
-                      "ambient light, 0.1");
-    addNumber<double>(command, "--exponent", options.settings.shading.exponent, notNegative, "a number from 0",
-                      "specular exponent, 32");
-    command.add_flag_callback(
-        "--no-transmission", [&options] { options.settings.shading.transmission = false; },
-        "no light through the layers");
+}
+
+void addLight(CLI::App& command, RenderOptions& options) {
+    addLightOptions(command, options.settings.shading);
 }
 
 void addCameraOptions(CLI::App& command, RenderOptions& options) {
@@ -129,6 +110,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
         {"Output", addOutputOptions},
         {"Mesh", addMeshOptions},
         {"Picture", addPictureOptions},
+        {"Light", addLight},
         {"In the volume", [](CLI::App& c, RenderOptions& o) { addOpaqueOptions(c, o.opaque); }},
         {"Annotation", [](CLI::App& c, RenderOptions& o) { addAnnotationOptions(c, o.annotation); }},
         {"Camera", addCameraOptions},

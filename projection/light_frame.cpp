@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <projection/light_frame.h>
 
+#include <utility>
+
 #include <glm/geometric.hpp>
+
+#include <projection/light_shadows.h>
 
 namespace tetralux::projection {
 
@@ -46,7 +50,9 @@ std::vector<FrameLight> frameLights(const shading::ShadingSettings& settings, co
 
 std::shared_ptr<const shading::VertexLight> vertexLightOf(const Scene& scene) {
     if (scene.vertexLight) return scene.vertexLight;
-    return std::make_shared<const shading::VertexLight>(shading::vertexLight(*scene.mesh, scene.settings.shading));
+    shading::VertexLight light = shading::vertexLight(*scene.mesh, scene.settings.shading);
+    if (light.shadowAt >= 0) addShadows(scene, light);
+    return std::make_shared<const shading::VertexLight>(std::move(light));
 }
 
 Scene withVertexLight(Scene scene) {

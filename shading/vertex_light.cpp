@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <mesh/point_cells.h>
+#include <shading/anisotropy.h>
 #include <shading/vertex_gradients.h>
 
 namespace tetralux::shading {
@@ -17,18 +18,25 @@ VertexLight vertexLight(const mesh::ScalarMesh& mesh, const ShadingSettings& set
         return floats - count;
     };
     if (settings.normals == Normals::Smooth) light.normalAt = take(3);
+    if (settings.needsAnisotropy()) light.tensorAt = take(6);
     if (settings.needsShadows()) light.shadowAt = take(static_cast<int>(settings.lights.size()));
     if (floats == 0) return light;
     light.stride = (floats + 3) / 4 * 4;
     light.values.assign(mesh.positions.size() * static_cast<std::size_t>(light.stride), 0.0f);
 
-    const mesh::PointCells around(mesh.cells, mesh.positions.size());
-    const std::vector<glm::dvec3> gradients = vertexGradients(mesh, around);
-    for (std::size_t point = 0; point < gradients.size(); ++point) {
+    std::vector<glm::dvec3> gradients;
+    if (light.normalAt >= 0 || light.tensorAt >= 0)
+        gradients = vertexGradients(mesh, mesh::PointCells(mesh.cells, mesh.positions.size()));
+    std::vector<Tensor> tensors;
+    if (light.tensorAt >= 0) tensors = levelSetTensors(mesh, gradients, settings.anisotropy);
+    for (std::size_t point = 0; point < mesh.positions.size(); ++point) {
         float* values = light.of(point);
         if (light.normalAt >= 0)
             for (int axis = 0; axis < 3; ++axis)
                 values[light.normalAt + axis] = static_cast<float>(gradients[point][axis]);
+        if (light.tensorAt >= 0)
+            std::transform(tensors[point].begin(), tensors[point].end(), values + light.tensorAt,
+                           [](double moment) { return static_cast<float>(moment); });
         if (light.shadowAt >= 0) std::fill_n(values + light.shadowAt, settings.lights.size(), 1.0f);
     }
     return light;

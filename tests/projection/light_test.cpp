@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Light in full: every engine against the reference, and the reference against what must hold whatever the formulas.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -9,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include <projection/engine.h>
+#include <projection/light_frame.h>
 #include <projection/reference_ray_caster.h>
 #include <tests/support/analytic_scenes.h>
 
@@ -86,6 +88,24 @@ const std::map<std::string, std::function<void(shading::ShadingSettings&)>>& cas
              s.reflectance = shading::Reflectance::HenyeyGreenstein;
              s.material.phaseAsymmetry = 0.6;
          }},
+        {"Ward",
+         [](auto& s) {
+             s.lights = {directional({0.4, 0.8, 0.6})};
+             s.reflectance = shading::Reflectance::Ward;
+             s.anisotropy.radius = 2;
+         }},
+        {"Lafortune",
+         [](auto& s) {
+             s.lights = {directional({0.4, 0.8, 0.6})};
+             s.reflectance = shading::Reflectance::Lafortune;
+             s.normals = shading::Normals::Smooth;
+             s.anisotropy.radius = 2;
+         }},
+        {"Shadows",
+         [](auto& s) {
+             s.lights = {directional({0.4, 0.8, 0.6}), point({0.5, 1.6, 0.5}), head()};
+             s.shadows.on = true;
+         }},
         {"SmoothNormals",
          [](auto& s) {
              s.lights = {directional({0.4, 0.8, 0.6}), point({0.5, 1.4, 0.5})};
@@ -110,6 +130,7 @@ TEST_P(LightCases, AreTheSameInEveryEngine) {
     const auto [name, mode] = GetParam();
     Scene scene = litScene(mode);
     cases().at(name)(scene.settings.shading);
+    scene = withVertexLight(std::move(scene));
     std::vector<Camera> cameras{cameraAt({2.1, 1.7, 2.4}, glm::dvec3(0.5), 40, 32),
                                 cameraAt({2.1, 1.7, 2.4}, glm::dvec3(0.5), 40, 32),
                                 cameraAt({0.45, 0.55, 0.5}, {0.9, 0.4, 0.2}, 40, 32)};
@@ -187,6 +208,76 @@ TEST(Light, AttenuationIsInMeshUnits) {
     const glm::vec4 attenuated = referenceOf(scene, camera).at(0, 0);
     ASSERT_GT(whole.x, 0.1f);
     EXPECT_NEAR(attenuated.x / whole.x, 1.0 / 11.5, 1e-4);
+}
+
+/// Transmittance at every vertex to the scene's first light.
+std::vector<double> shadowsOf(const Scene& scene) {
+    const auto light = vertexLightOf(scene);
+    std::vector<double> shadows;
+    for (std::size_t i = 0; i < scene.mesh->positions.size(); ++i)
+        shadows.push_back(static_cast<double>(light->of(i)[light->shadowAt]));
+    return shadows;
+}
+
+TEST(Shadows, OfASlabAreBeerLambert) {
+    for (const Mode mode : {Mode::Standard, Mode::ScaleInvariant}) {
+        // s = 2z: extinction 1.3 per length, or 0.65 per unit of s
+        Scene scene = sceneOf(jitteredBoxMesh(6, 0.2, 8, [](const glm::dvec3& p) { return 2 * p.z; }),
+                              constantFunction(mode == Mode::Standard ? 1.3 : 0.65), mode);
+        scene.settings.shading.lights = {directional({0, 0, 1})};
+        scene.settings.shading.shadows.on = true;
+        const auto shadows = shadowsOf(scene);
+        for (std::size_t i = 0; i < shadows.size(); ++i) {
+            const glm::dvec3& p = scene.mesh->positions[i];
+            if (std::max(p.x, p.y) > 1 - 1e-6) continue;  // the line beside it runs outside
+            EXPECT_NEAR(shadows[i], std::exp(-1.3 * (1 - p.z)), 1e-6) << p.x << " " << p.y << " " << p.z;
+        }
+    }
+}
+
+TEST(Shadows, OfIsosurfacesAndPointLights) {
+    Scene scene = sceneOf(boxMesh(6, [](const glm::dvec3& p) { return p.z; }), constantFunction(0.0));
+    scene.transferFunction.isosurfaces = {{0.55, 0.4, {1, 1, 1}}};
+    scene.settings.shading.lights = {point({0.3, 0.4, 0.9})};
+    scene.settings.shading.shadows.on = true;
+    const auto shadows = shadowsOf(scene);
+    for (std::size_t i = 0; i < shadows.size(); ++i)
+        EXPECT_NEAR(shadows[i], scene.mesh->positions[i].z < 0.55 ? 0.6 : 1.0, 1e-6);
+}
+
+TEST(Shadows, AreWhatRaysOfTheReferenceFind) {
+    for (const Mode mode : {Mode::Standard, Mode::ScaleInvariant}) {
+        Scene scene = litScene(mode);
+        const glm::dvec3 towards = glm::normalize(glm::dvec3(0.3, 0.5, 0.7));
+        scene.settings.shading.lights = {directional(towards)};
+        scene.settings.shading.shadows.on = true;
+        const auto shadows = shadowsOf(scene);
+        scene.settings.shading = {};
+        const ReferenceRayCaster caster(scene);
+        for (std::size_t i = 0; i < shadows.size(); i += 7) {
+            const glm::dvec3& p = scene.mesh->positions[i];
+            if (std::min({p.x, p.y, p.z}) < 0.01 || std::max({p.x, p.y, p.z}) > 0.99) continue;
+            const Camera camera = cameraAt(p, p + towards, 1, 1);
+            const double alpha = static_cast<double>(referenceOf(scene, camera).at(0, 0).w);
+            EXPECT_NEAR(shadows[i], 1 - alpha, 2e-5);
+        }
+    }
+}
+
+TEST(Shadows, OfAnAreaLightAreSofter) {
+    // an opaque plate in the middle of clear space: behind its rim the hard shadow is all or nothing
+    Scene scene =
+        sceneOf(boxMesh(13, [](const glm::dvec3& p) { return p.z > 0.66 && p.z < 0.8 && p.x < 0.5 ? 1.0 : 0.0; }),
+                constantFunction(0.0));
+    scene.transferFunction.extinction = {{0.2, 0.0}, {0.5, 200.0}};
+    scene.settings.shading.lights = {directional({0, 0, 1})};
+    scene.settings.shading.shadows.on = true;
+    const auto between = [](const std::vector<double>& values) {
+        return std::count_if(values.begin(), values.end(), [](double t) { return t > 0.1 && t < 0.9; });
+    };
+    const auto hard = between(shadowsOf(scene));
+    scene.settings.shading.shadows.softness = 0.3;
+    EXPECT_GT(between(shadowsOf(scene)), 2 * hard + 20);
 }
 
 TEST(Light, SmoothNormalsOfALinearFieldAreThoseOfTheCells) {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// In which direction the level set about a vertex extends farthest (Ament & Dachsbacher, "Anisotropic Ambient Volume
+/// Shading", IEEE Visualization 2015): what anisotropic lobes stand on.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <mesh/tet_mesh.h>
+#include <shading/lights.h>
+
+namespace tetralux::shading {
+
+/// Symmetric 3×3: xx, yy, zz, xy, xz, yz.
+using Tensor = std::array<double, 6>;
+
+/// Per point v the second moments, about v, of the points x near it whose scalar is nearly the same:
+///
+///     Σ w·d dᵀ / (r²·Σ w),   d = (I − n nᵀ)(x − v),   |x − v| ≤ r,   |s(x) − s(v)| ≤ ε,   w = (1 − |x − v|²/r²)(1 −
+///     (s(x) − s(v))²/ε²)·|∇s|·dV,
+///
+/// where |∇s|·dV = dA·ds counts the level sets by their area: by volume they would count for more where they lie apart,
+/// as towards an ellipsoid's ends. n is the direction of the gradient at v (`gradients`, shading/vertex_gradients.h).
+/// The paper draws n random samples from the sphere and counts all within ε alike; here every cell near v is filled
+/// with `settings.samples` points that are the same in every run, and the weight falls to 0 towards ε, since a sharp
+/// end takes more than four times as many points for the same accuracy. The larger eigenvalue in the tangent plane is
+/// called λ₂: its direction is that along which the level set extends farther, and λ₂/λ₁ ≥ 1 is 1 where it extends
+/// alike. Moments about v rather than about the mean leave them alike at the mesh's boundary too. Zero for cell data
+/// and where there is no gradient.
+std::vector<Tensor> levelSetTensors(const mesh::ScalarMesh& mesh, const std::vector<glm::dvec3>& gradients,
+                                    const AnisotropySettings& settings);
+
+/// Eigenvalues λ₁ ≤ λ₂ of a tensor in the plane across `normal`, and λ₂'s direction.
+struct Anisotropy {
+    double minor, major;
+    glm::dvec3 direction;
+};
+Anisotropy anisotropyAcross(const Tensor& tensor, const glm::dvec3& normal);
+
+}  // namespace tetralux::shading

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Level sets whose directions are known: cylinders, spheres, ellipsoids.
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include <mesh/point_cells.h>
+#include <shading/anisotropy.h>
+#include <shading/vertex_gradients.h>
+#include <tests/support/analytic_scenes.h>
+
+namespace tetralux::shading {
+namespace {
+
+using namespace tetralux::test;
+
+struct Sample {
+    glm::dvec3 place;
+    Anisotropy anisotropy;
+};
+
+/// What is found at points with `least` ≤ s ≤ `most` whose neighbourhood (radius 0.24 for 21 points along a side) lies
+/// within the box.
+std::vector<Sample> samplesOf(const mesh::ScalarMesh& m, double least, double most) {
+    const auto gradients = vertexGradients(m, mesh::PointCells(m.cells, m.positions.size()));
+    const auto tensors = levelSetTensors(m, gradients, {});
+    std::vector<Sample> samples;
+    for (std::size_t i = 0; i < tensors.size(); ++i) {
+        const glm::dvec3& p = m.positions[i];
+        if (m.scalars[i] < least || m.scalars[i] > most || std::min({p.x, p.y, p.z}) < 0.24 ||
+            std::max({p.x, p.y, p.z}) > 0.76)
+            continue;
+        samples.push_back({p, anisotropyAcross(tensors[i], glm::normalize(gradients[i]))});
+    }
+    return samples;
+}
+
+double meanRatio(const std::vector<Sample>& samples) {
+    double sum = 0;
+    for (const Sample& sample : samples) sum += sample.anisotropy.major / sample.anisotropy.minor;
+    return sum / static_cast<double>(samples.size());
+}
+
+double ellipsoid(const glm::dvec3& p, const glm::dvec3& axes) {
+    return glm::length((p - glm::dvec3(0.5)) / axes);
+}
+
+TEST(Anisotropy, FollowsACylindersAxis) {
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(0.3, 0.5, 0.8));
+    const auto m = boxMesh(21, [&](const glm::dvec3& p) { return glm::length(glm::cross(p - glm::dvec3(0.5), axis)); });
+    const auto samples = samplesOf(m, 0.1, 0.2);
+    ASSERT_GT(samples.size(), 100u);
+    double largest = 0, sum = 0;
+    for (const Sample& sample : samples) {
+        const double angle =
+            std::acos(std::min(1.0, std::abs(glm::dot(sample.anisotropy.direction, axis)))) * 180 / std::numbers::pi;
+        largest = std::max(largest, angle);
+        sum += angle;
+    }
+    RecordProperty("largest", std::to_string(largest));
+    EXPECT_LT(largest, 2.0);  // degrees
+    EXPECT_GT(meanRatio(samples), 1.2);
+}
+
+TEST(Anisotropy, IsNoneOnASphere) {
+    const auto m = boxMesh(21, [](const glm::dvec3& p) { return ellipsoid(p, glm::dvec3(1)); });
+    const auto samples = samplesOf(m, 0.15, 0.25);
+    ASSERT_GT(samples.size(), 100u);
+    for (const Sample& sample : samples) {
+        EXPECT_LT(sample.anisotropy.major / sample.anisotropy.minor, 1.1)
+            << glm::length(sample.place - glm::dvec3(0.5));
+        EXPECT_GE(sample.anisotropy.major, sample.anisotropy.minor);
+    }
+}
+
+TEST(Anisotropy, RisesWithElongation) {
+    double previous = 0;
+    for (const double length : {1.0, 1.3, 2.0}) {
+        const auto m = boxMesh(21, [&](const glm::dvec3& p) { return ellipsoid(p, {1, 1, length}); });
+        std::vector<Sample> waist;  // the equator: the same points for each length
+        for (const Sample& sample : samplesOf(m, 0.12, 0.25))
+            if (std::abs(sample.place.z - 0.5) < 0.01 && glm::distance(sample.place, glm::dvec3(0.5)) > 0.14)
+                waist.push_back(sample);
+        const double ratio = meanRatio(waist);
+        EXPECT_GT(ratio, previous + 0.02) << length;
+        previous = ratio;
+    }
+}
+
+TEST(Anisotropy, IsNoneOnPlanesAlsoAtTheBoundary) {
+    const auto m = jitteredBoxMesh(11, 0.2, 5, [](const glm::dvec3& p) { return p.x + 0.4 * p.y; });
+    const auto gradients = vertexGradients(m, mesh::PointCells(m.cells, m.positions.size()));
+    const auto tensors = levelSetTensors(m, gradients, {});
+    for (std::size_t i = 0; i < tensors.size(); ++i) {
+        const glm::dvec3& p = m.positions[i];
+        const bool onOneFace = std::abs(p.z) < 1e-9 && std::min(p.x, p.y) > 0.4 && std::max(p.x, p.y) < 0.6;
+        if (!onOneFace) continue;
+        const Anisotropy found = anisotropyAcross(tensors[i], glm::normalize(gradients[i]));
+        EXPECT_LT(found.major / found.minor, 1.2);
+    }
+}
+
+TEST(Anisotropy, IsTheSameForAMeshOfAnySizeAndInEveryRun) {
+    auto m = boxMesh(9, [](const glm::dvec3& p) { return ellipsoid(p, {1, 2, 3}); });
+    const auto of = [](const mesh::ScalarMesh& mesh) {
+        AnisotropySettings settings;
+        settings.smoothing = 1;
+        return levelSetTensors(mesh, vertexGradients(mesh, mesh::PointCells(mesh.cells, mesh.positions.size())),
+                               settings);
+    };
+    const auto one = of(m);
+    EXPECT_EQ(one, of(m));
+    for (glm::dvec3& p : m.positions) p *= 1024.0;
+    const auto scaled = of(finished(std::move(m)));
+    for (std::size_t i = 0; i < one.size(); ++i)
+        for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(scaled[i][k], one[i][k], 1e-9);
+}
+
+}  // namespace
+}  // namespace tetralux::shading

@@ -33,7 +33,7 @@ public:
     void run(const std::string& transferFunction, const NamedMode& mode, std::vector<BenchRow>& rows) const {
         const projection::Scene scene{.mesh = mesh_,
                                       .transferFunction = benchTransferFunction(transferFunction, *mesh_, mode.mode),
-                                      .settings = {.mode = mode.mode, .shading = {}, .table = {}}};
+                                      .settings = {.mode = mode.mode, .shading = {}, .adaptive = {}, .table = {}}};
         std::vector<BenchSubject> subjects;
         for (const glm::ivec2& size : plan_.sizes)
             subjects.push_back({source_, mesh_->cells.size(), size.x, size.y, transferFunction, mode.name});

@@ -3,12 +3,14 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <apps/commands.h>
 #include <apps/mesh_command.h>
+#include <apps/shape_options.h>
 
 namespace {
 
@@ -58,7 +60,10 @@ int run(int argumentCount, char** arguments) {
     if (const std::string word = unknownCommand(program, argumentCount, arguments); !word.empty())
         return complain(fmt::format("there is no command '{}'; take one of {}", word, commandNames(program)));
     try {
-        program.parse(argumentCount, arguments);
+        std::vector<std::string> words = tetralux::apps::joinedOptionalValues(argumentCount, arguments);
+        std::vector<char*> joined;
+        for (std::string& word : words) joined.push_back(word.data());
+        program.parse(static_cast<int>(joined.size()), joined.data());
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
         return complain(fmt::format("{}; see '{}'", error.what(), helpCommand(program)));

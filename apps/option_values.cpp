@@ -25,8 +25,13 @@ struct Named {
 constexpr Named<Mode> modes[] = {{Mode::Standard, "standard"},
                                  {Mode::ScaleInvariant, "scale-invariant"},
                                  {Mode::Mip, "mip"},
+                                 {Mode::Minimum, "minimum"},
                                  {Mode::Average, "average"},
-                                 {Mode::FirstHit, "first-hit"}};
+                                 {Mode::Additive, "additive"},
+                                 {Mode::Emission, "emission"},
+                                 {Mode::Absorption, "absorption"},
+                                 {Mode::FirstHit, "first-hit"},
+                                 {Mode::Depth, "depth"}};
 constexpr Named<OrderMethod> orders[] = {
     {OrderMethod::Auto, "auto"}, {OrderMethod::Graph, "graph"}, {OrderMethod::Centroid, "centroid"}};
 

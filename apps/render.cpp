@@ -126,7 +126,10 @@ void addRenderCommand(CLI::App& program, Command& chosen) {
     const auto options = std::make_shared<RenderOptions>();
     CLI::App* command = program.add_subcommand("render", "one picture of a mesh, or an orbit of pictures");
     addRenderOptions(*command, *options);
-    command->callback([options, &chosen] { chosen = [options] { return render(*options); }; });
+    command->callback([options, &chosen] {
+        finishShapeOptions(options->shape, options->settings);
+        chosen = [options] { return render(*options); };
+    });
 }
 
 }  // namespace tetralux::apps

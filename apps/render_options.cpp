@@ -46,11 +46,14 @@ void addPictureOptions(CLI::App& command, RenderOptions& options) {
     addParsed(command, "--mode", options.settings.mode, parseMode, modeNames(), "MODE");
     addParsed(command, "--background", options.background, parseBackground, "colour put under the picture, or none",
               "r,g,b");
-    command.add_flag("--silhouette", options.settings.shading.silhouette, "thin layers seen edge-on become denser");
 }
 
 void addLight(CLI::App& command, RenderOptions& options) {
     addLightOptions(command, options.settings.shading);
+}
+
+void addShape(CLI::App& command, RenderOptions& options) {
+    addShapeOptions(command, options.shape, options.settings);
 }
 
 void addCameraOptions(CLI::App& command, RenderOptions& options) {
@@ -111,6 +114,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
         {"Mesh", addMeshOptions},
         {"Picture", addPictureOptions},
         {"Light", addLight},
+        {"Shape", addShape},
         {"In the volume", [](CLI::App& c, RenderOptions& o) { addOpaqueOptions(c, o.opaque); }},
         {"Annotation", [](CLI::App& c, RenderOptions& o) { addAnnotationOptions(c, o.annotation); }},
         {"Camera", addCameraOptions},

@@ -11,6 +11,7 @@
 
 #include <apps/annotation.h>
 #include <apps/opaque_options.h>
+#include <apps/shape_options.h>
 #include <mesh/read_mesh.h>
 #include <projection/engine.h>
 #include <projection/scene.h>
@@ -30,6 +31,7 @@ struct RenderOptions {
     projection::RenderSettings settings;
     OpaqueOptions opaque;
     AnnotationOptions annotation;
+    ShapeOptions shape;
     projection::EngineOptions engine;
 
     glm::ivec2 size{512, 512};                  ///< pixels
@@ -40,7 +42,7 @@ struct RenderOptions {
     std::string output;                ///< .png or .exr
     std::optional<int> frames;         ///< an orbit of so many images
     double previewMilliseconds = 0.0;  ///< > 0: a quick picture in this time comes first
-    std::optional<glm::vec3> background;
+    std::optional<std::optional<glm::vec3>> background;  ///< not given: what suits the mode
     int verifiedPixels = 0;          ///< so many pixels of each frame are computed again by the reference
     std::optional<double> maxError;  ///< largest rmse that may be found so, its 95 % bound that is
     std::string report;              ///< JSON file; empty: none

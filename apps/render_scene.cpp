@@ -14,6 +14,7 @@
 #include <apps/stopwatch.h>
 #include <mesh/read_mesh.h>
 #include <mesh/volume_samples.h>
+#include <preint/equidistant_isosurfaces.h>
 #include <preint/transfer_function.h>
 #include <projection/opaque_layer.h>
 
@@ -97,7 +98,9 @@ preint::TransferFunction resolvedDefault(const RenderOptions& options, const pre
 preint::TransferFunction resolvedFor(const RenderOptions& options, const preint::TransferFunction& function,
                                      const mesh::ScalarMesh& mesh) {
     // what "per extent" in a transfer function means for this mode (preint::TransferFunction::extinctionPerExtent)
-    if (projection::integralOf(options.settings.mode) == preint::Integral::ScaleInvariant) {
+    // isosurfaces have no length: what they stand for is extinction over the scalar in any mode
+    if (options.shape.isosurfaces ||
+        projection::integralOf(options.settings.mode) == preint::Integral::ScaleInvariant) {
         const glm::dvec2 range = rangeOf(options, mesh);
         return resolvedWith(range.y - range.x, options, function, mesh);
     }
@@ -120,12 +123,18 @@ projection::Camera cameraFor(const RenderOptions& options, const mesh::BoundingB
     return camera;
 }
 
+/// What is put under the picture when nothing is said.
+std::optional<glm::vec3> ownBackground(projection::Mode mode) {
+    if (mode == projection::Mode::Absorption) return glm::vec3(1.0f);  // a radiograph is black without light behind it
+    return std::nullopt;
+}
+
 }  // namespace
 
 SceneRenderer::SceneRenderer(const RenderOptions& options)
     : engineOptions_(options.engine),
       annotation_(options.annotation),
-      background_(options.background),
+      background_(options.background.value_or(ownBackground(options.settings.mode))),
       verifiedPixels_(options.verifiedPixels) {
     readScene(options);
     const Stopwatch watch;
@@ -154,6 +163,9 @@ void SceneRenderer::readScene(const RenderOptions& options) {
     scene_.settings = options.settings;
     scene_.settings.table.threads = options.settings.threads;
     scene_.transferFunction = resolvedFor(options, transferFunction, *scene_.mesh);
+    if (options.shape.isosurfaces)
+        scene_.transferFunction = preint::equidistantIsosurfaces(scene_.transferFunction, *options.shape.isosurfaces,
+                                                                 record_.scalarMin, record_.scalarMax);
     const glm::dvec2 range = rangeOf(options, *scene_.mesh);
     annotated_ = {record_.fieldName,
                   range.x,
@@ -164,6 +176,8 @@ void SceneRenderer::readScene(const RenderOptions& options) {
     if (!options.opaque.empty())
         scene_.mapSources.push_back(
             std::make_shared<const projection::OpaqueLayer>(scene_, readOpaqueObjects(options.opaque)));
+    if (!options.shape.clips.empty())
+        scene_.mapSources.push_back(std::make_shared<projection::ClipRegion>(options.shape.clips));
 }
 
 /// Keeps what was found in the frame that may be farthest from the truth.

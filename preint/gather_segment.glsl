@@ -8,6 +8,9 @@
 //   vec4 interfaceLayer[]                    colour, optical depth −ln(1 − α₀); depth 0: only a jump
 //   int zoneAfter[]                          zone of the table above the first i interfaces, one more than there are interfaces
 
+#ifndef TETRALUX_INTERFACE_SCALE
+#define TETRALUX_INTERFACE_SCALE real(1.0)  // factor of the isosurfaces' depths
+#endif
 #ifndef TETRALUX_INTERFACE_COUNT
 #define TETRALUX_INTERFACE_COUNT TETRALUX_INTERFACES
 #endif
@@ -80,11 +83,12 @@ TETRALUX_GLSL_FUNCTION Gathered gatherSegment(real front, real back, real segmen
         if (n < crossed) {
             vec4 layer = interfaceLayer[next];
             vec3 layerColor = vec3(layer.x, layer.y, layer.z);
-            opacity = opacityOf(layer.w);
+            real layerDepth = layer.w * TETRALUX_INTERFACE_SCALE;
+            opacity = opacityOf(layerDepth);
             color += transparency * opacity * layerColor;
-            thinColor += layer.w * layerColor;
+            thinColor += layerDepth * layerColor;
             transparency *= real(1.0) - opacity;
-            otherDepth += layer.w;
+            otherDepth += layerDepth;
         }
         at = to;
     }

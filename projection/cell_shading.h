@@ -10,5 +10,6 @@ namespace tetralux::glsl {
 
 #include <shading/cell_shading.glsl>
 #include <shading/light_model.glsl>
+#include <shading/silhouette.glsl>
 
 }  // namespace tetralux::glsl

@@ -7,6 +7,8 @@ target_sources(tetralux_projection PRIVATE
   cpu_cull.cpp
   cpu_cull_kernel.cpp
   cpu_engine.cpp
+  cpu_limited_kernel.cpp
+  cpu_limits.cpp
   cpu_order.cpp
   cpu_special_cell.cpp
   cpu_tile_kernel.cpp
@@ -15,5 +17,5 @@ target_sources(tetralux_projection PRIVATE
 target_link_libraries(tetralux_projection PRIVATE PkgConfig::Highway)
 # The least that vectors of four need; Highway's portable form has one lane.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  set_source_files_properties(cpu_cull_kernel.cpp cpu_tile_kernel.cpp PROPERTIES COMPILE_OPTIONS "-msse4.2;-maes;-mpclmul")
+  set_source_files_properties(cpu_cull_kernel.cpp cpu_limited_kernel.cpp cpu_tile_kernel.cpp PROPERTIES COMPILE_OPTIONS "-msse4.2;-maes;-mpclmul")
 endif()

@@ -16,9 +16,11 @@
 
 #include <projection/cpu_bins.h>
 #include <projection/cpu_cull.h>
+#include <projection/cpu_limits.h>
 #include <projection/cpu_order.h>
 #include <projection/cpu_tile.h>
 #include <projection/edge_on_planes.h>
+#include <projection/ray_nearness.h>
 #include <projection/transfer_support.h>
 
 namespace tetralux::projection {
@@ -30,9 +32,6 @@ using Clock = std::chrono::steady_clock;
 double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
-
-/// Distance from which nearness is measured is at least this, in scene lengths: the eye may stand in the mesh.
-constexpr double leastDepthReference = 0.5;
 
 /// Rounding of nearness that the order check allows for, relative to the mesh's extent.
 constexpr double orderRounding = 1e-6;
@@ -64,6 +63,7 @@ public:
                 makeLists(camera, report);
                 keptCamera_ = camera;
             }
+            setLimits(view);
             draw(image, report);
         });
         report.cellsSkipped = skipped_;
@@ -86,13 +86,11 @@ private:
     void prepare();
     void findVisibleCells();
     TileKind kind() const;
-    bool ordered() const {
-        return !(frame_.kind == TileKind::Mip || frame_.kind == TileKind::Average ||
-                 frame_.kind == TileKind::Absorption);
-    }
+    bool ordered() const { return !orderFree(scene_.settings.mode) && frame_.kind != TileKind::Absorption; }
     void makeLists(const Camera& camera, FrameReport& report);
     void setFrame(const CameraFrame& frame);
     CullCounts cull();
+    void setLimits(const View& view);
     void draw(Image& image, FrameReport& report);
     void sortTilesByWork();
 
@@ -116,6 +114,8 @@ private:
     std::optional<Camera> keptCamera_;
     std::vector<CpuPoint> points_;
     TileFrame frame_{};
+    TileLimits limits_;
+    bool limited_ = false;  // this frame takes drawLimitedTile
     int tilesX_ = 0, tilesY_ = 0;
     std::vector<Survivor> survivors_;
     std::vector<SurvivorChunk> chunks_;
@@ -131,15 +131,29 @@ TileKind CpuEngine::kind() const {
     switch (scene_.settings.mode) {
         case Mode::Mip:
             return TileKind::Mip;
+        case Mode::Minimum:
+            return TileKind::Minimum;
         case Mode::Average:
             return TileKind::Average;
         case Mode::FirstHit:
             return TileKind::FirstHit;
+        case Mode::Additive:
+        case Mode::Emission:
+            return TileKind::Additive;
+        case Mode::Absorption:
+            return TileKind::Absorption;
+        case Mode::Depth:
+            return TileKind::Depth;
+        case Mode::Contribution:
+        case Mode::DataContribution:
+            return TileKind::Contribution;
         default:
             break;
     }
     if (shading.needsGradient()) return TileKind::Shaded;
-    return skips_.orderFree && transfer_.constantColor() ? TileKind::Absorption : TileKind::Composite;
+    // other classifications show no peaks, so that theirs do not count for one colour
+    const bool plain = scene_.settings.classification == Classification::Preintegrated;
+    return skips_.orderFree && plain && transfer_.constantColor() ? TileKind::Absorption : TileKind::Composite;
 }
 
 void CpuEngine::prepare() {
@@ -163,7 +177,11 @@ void CpuEngine::prepare() {
     frame_.vertexLight = vertexLight_.get();
     frame_.earlyTermination = skips_.earlyTermination;
     frame_.ordered = ordered();
-    const bool everyScalarCounts = frame_.kind == TileKind::Mip || frame_.kind == TileKind::Average;
+    frame_.classification = scene_.settings.classification;
+    frame_.constantColor = scene_.settings.mode == Mode::Absorption ? glm::vec3(0) : glm::vec3(transfer_.color());
+    frame_.emissionOnly = scene_.settings.mode == Mode::Emission;
+    const bool everyScalarCounts =
+        frame_.kind == TileKind::Mip || frame_.kind == TileKind::Minimum || frame_.kind == TileKind::Average;
     if (skips_.invisibleCells && !everyScalarCounts) findVisibleCells();
     prepareMilliseconds_["cells"] = millisecondsSince(start);
     if (!frame_.ordered || !skips_.sort) return;
@@ -201,8 +219,7 @@ void CpuEngine::setFrame(const CameraFrame& frame) {
     frame_.height = frame.height;
     frame_.centre = frame.centre - frame.sampleShift;
     frame_.pixel = glm::length(frame.perPixelRight) / (frame.orthographic ? units_.length : 1.0);
-    const double middle = glm::dot(mesh_.bounds.centre() - frame.eye, frame.forward) / units_.length;
-    frame_.depthReference = frame.orthographic ? middle : std::max(middle, leastDepthReference);
+    frame_.depthReference = depthReferenceOf(mesh_.bounds, frame, units_);
     frame_.orderTolerance = static_cast<float>(orderRounding / (frame.orthographic ? 1.0 : frame_.depthReference));
     const auto& shading = scene_.settings.shading;
     frame_.axes = {glm::vec3(frame.right), glm::vec3(-frame.up), glm::vec3(frame.forward)};
@@ -214,6 +231,21 @@ void CpuEngine::setFrame(const CameraFrame& frame) {
                                  static_cast<float>(-glm::dot(towards, frame.up)),
                                  static_cast<float>(glm::dot(towards, frame.forward))});
     }
+}
+
+/// The pixel maps as nearness along rays, and whether the frame needs the kernel that honours them.
+void CpuEngine::setLimits(const View& view) {
+    limits_ = {};
+    const bool mapped = view.maps != nullptr && view.maps->changeVolume();
+    if (mapped) limits_ = tileLimits(*view.maps, cameraFrame(view.camera), frame_, units_);
+    frame_.limits = mapped ? &limits_ : nullptr;
+    const auto& shading = scene_.settings.shading;
+    limited_ = mapped || frame_.classification != Classification::Preintegrated || frame_.kind == TileKind::Additive ||
+               frame_.kind == TileKind::Depth || frame_.kind == TileKind::Contribution ||
+               (frame_.kind == TileKind::Absorption && shading.needsGradient());
+    const DepthRange range = depthRange(mesh_.bounds, view.camera);
+    frame_.greyOfZero = range.greyAt(0.0);
+    frame_.greyPerDistance = range.greyAt(units_.length) - frame_.greyOfZero;
 }
 
 void CpuEngine::makeLists(const Camera& camera, FrameReport& report) {
@@ -306,8 +338,9 @@ void CpuEngine::draw(Image& image, FrameReport& report) {
             for (std::size_t i = next++; i < tilesByWork_.size(); i = next++) {
                 const std::uint32_t tile = tilesByWork_[i];
                 const auto columns = static_cast<std::uint32_t>(tilesX_);
-                drawTile(frame_, static_cast<int>(tile % columns) * cpuTileSize,
-                         static_cast<int>(tile / columns) * cpuTileSize, bins_.tile(tile), image, results[tile]);
+                (limited_ ? drawLimitedTile : drawTile)(frame_, static_cast<int>(tile % columns) * cpuTileSize,
+                                                        static_cast<int>(tile / columns) * cpuTileSize,
+                                                        bins_.tile(tile), image, results[tile]);
             }
         },
         tbb::simple_partitioner());

@@ -26,12 +26,28 @@ struct SegmentMiddles {
     real nearness;  ///< mean of depth ratio times rho (orthographic: mean rho)
 };
 
+/// Of segments between two values of rho.
+template <bool Orthographic>
+HWY_INLINE SegmentMiddles segmentMiddles(real dx, real dy, real in, real out) {
+    const real half(0.5f);
+    if constexpr (Orthographic) return {dx, dy, real(1.0f), half * (in + out)};
+    const real ratioIn = reciprocal(real(1.0f) + in), ratioOut = reciprocal(real(1.0f) + out);
+    return {dx, dy, half * (ratioIn + ratioOut), half * (ratioIn * in + ratioOut * out)};
+}
+
+/// Where a segment begins at a clip surface (pixel_maps.h), that surface's normal is lit.
+struct CutSurface {
+    mask here;
+    vec3 normal;
+};
+
 /// A segment that is lit, as the short way hands it on.
 struct SegmentToLight {
-    vec3 color;    ///< C_seg/α_seg
-    real opacity;  ///< after the silhouette
-    real side;     ///< sign of s_f − s_b
-    vec3 towards;  ///< of the ray, unit, (right, down, forward)
+    vec3 color;             ///< C_seg/α_seg
+    real opacity;           ///< after the silhouette
+    real side;              ///< sign of s_f − s_b
+    vec3 towards;           ///< of the ray, unit, (right, down, forward)
+    const CutSurface* cut;  ///< nullptr: none of the block's segments begins at one
 };
 
 HWY_INLINE vec3 broadcast(const glm::vec3& v) {
@@ -106,13 +122,13 @@ HWY_INLINE vec3 arriving(const FrameLight& light, vec3 place, vec3 view, vec3& t
 }
 
 /// Colour per α in the light. `place`: the segments' middles, (right, down, forward) from the eye, scene lengths.
-HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& batch, std::size_t j,
+inline HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& batch, std::size_t j,
                               const SegmentMiddles& middles, vec3 place, const SegmentToLight& segment) {
     const LightModel model = broadcastModel(frame.lightModel);
     const shading::VertexLight& kept = *frame.vertexLight;
     const vec3 ambient = broadcast(frame.lightModel.ambient);
     const vec3 dark(ambient.x * segment.color.x, ambient.y * segment.color.y, ambient.z * segment.color.z);
-    if (!(batch.gradient[j] > 0) && kept.normalAt < 0 && model.kind != 4) return dark;
+    if (!(batch.gradient[j] > 0) && kept.normalAt < 0 && model.kind != 4 && segment.cut == nullptr) return dark;
 
     const float* values[4] = {};
     real weights[4];
@@ -133,6 +149,10 @@ HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& batch, st
     } else {
         point.normal =
             worldFromCamera(frame, vec3(real(batch.normal[0][j]), real(batch.normal[1][j]), real(batch.normal[2][j])));
+    }
+    if (segment.cut != nullptr) {
+        point.normal = select(segment.cut->here, worldFromCamera(frame, segment.cut->normal), point.normal);
+        lit = either(segment.cut->here, both(lit, real(batch.gradient[j]) + real(kept.normalAt + 1) > real(0.0f)));
     }
     if (kept.tensorAt >= 0)
         setAnisotropy(model, vectorAt(values, kept.tensorAt, weights), vectorAt(values, kept.tensorAt + 3, weights),

@@ -28,7 +28,7 @@ namespace tetralux::projection::HWY_NAMESPACE {
 
 /// Premultiplied colour and transmittance, gathered front to back.
 struct ColorSink {
-    static constexpr bool depthOnly = false;
+    static constexpr bool depthOnly = false, hides = true;
     real r, g, b, t;
 
     /// Adds t·(c₀·α + c₁·q) where the colour is c₀ + c₁·(s − middle) and q the α-weighted s − middle.
@@ -54,6 +54,10 @@ struct ColorSink {
 struct SegmentSink : ColorSink {
     real opacity, smoothDepth, otherDepth;
 
+    HWY_INLINE void begin() {
+        r = g = b = opacity = smoothDepth = otherDepth = real(0.0f);
+        t = real(1.0f);
+    }
     HWY_INLINE void add(const TransferPiece& piece, real pieceOpacity, real weighted) {
         opacity += t * pieceOpacity;
         ColorSink::add(piece, pieceOpacity, weighted);
@@ -114,12 +118,16 @@ HWY_INLINE void addPiece(const TransferPiece& piece, real middle, real half, rea
     sink.addDepth(depth);
     if constexpr (!Sink::depthOnly) {
         const real halfStep = path * slope * half;
-        const mask deep = either(depth > pieceDepthLimit(), abs(halfStep) > pieceSlopeLimit());
-        if (HWY_LIKELY(none(deep))) {
-            const real opacity = pieceOpacity(depth);
-            sink.add(piece, opacity, middle * opacity + half * pieceSkew(depth, halfStep));
+        if constexpr (!Sink::hides) {
+            sink.add(piece, depth, middle * depth + halfStep * half * real(1.0f / 3.0f));
         } else {
-            addDeepPiece(piece, middle, half, depth, halfStep, sink);
+            const mask deep = either(depth > pieceDepthLimit(), abs(halfStep) > pieceSlopeLimit());
+            if (HWY_LIKELY(none(deep))) {
+                const real opacity = pieceOpacity(depth);
+                sink.add(piece, opacity, middle * opacity + half * pieceSkew(depth, halfStep));
+            } else {
+                addDeepPiece(piece, middle, half, depth, halfStep, sink);
+            }
         }
     }
 }

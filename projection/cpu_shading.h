@@ -16,10 +16,11 @@ HWY_BEFORE_NAMESPACE();
 namespace tetralux::projection::HWY_NAMESPACE {
 
 #include <shading/cell_shading.glsl>
+#include <shading/silhouette.glsl>
 
 /// Colour per α and α of one segment.
 struct ShadedSegment {
-    real r, g, b, opacity;
+    real r, g, b, opacity, depth;
 };
 
 /// 1 − exp(−depth) with the relative precision of float.
@@ -32,11 +33,11 @@ HWY_INLINE real opacityOfDepth(real depth) {
 template <bool ScaleInvariant, class Middles, class Place>
 HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& batch, std::size_t j,
                                       const SegmentSink& sink, const Segments& segments, real fall, vec3 towards,
-                                      const Middles& middles, const Place& place) {
+                                      const Middles& middles, const Place& place, const CutSurface* cut = nullptr) {
     const auto& shading = *frame.shading;
     const real magnitude(batch.gradient[j]);
     const vec3 normal{real(batch.normal[0][j]), real(batch.normal[1][j]), real(batch.normal[2][j])};
-    real depth = sink.smoothDepth + sink.otherDepth;
+    real plainDepth = sink.smoothDepth + sink.otherDepth, depth = plainDepth;
     const real inverse = select(sink.opacity > real(0.0f), real(1.0f) / max(sink.opacity, real(1e-37f)), real(0.0f));
     vec3 mean = inverse * vec3(sink.r, sink.g, sink.b);
     if (shading.silhouette && batch.gradient[j] > 0) {
@@ -50,22 +51,37 @@ HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& b
             depth = silhouetteDepth(real(0.0f), depth, cosine);
         }
     }
-    const real opacity = opacityOfDepth(depth);
-    if (!shading.lit()) return {mean.x, mean.y, mean.z, opacity};
+    if (shading.gradientOpacity > 0) {  // Equation 18
+        const real factor = real(shading.gradientOpacity) * magnitude;
+        depth = depth * factor;
+        plainDepth = plainDepth * factor;
+    }
+    real opacity = opacityOfDepth(depth);
+    if (shading.approximateSilhouette && batch.gradient[j] > 0)
+        opacity = approximateSilhouetteOpacity(opacityOfDepth(plainDepth), plainDepth, depth);
+    if (frame.classification == Classification::PostLinear) opacity = linearOpacity(depth);
+    if (!shading.lit()) return {mean.x, mean.y, mean.z, opacity, depth};
 
-    const real side = select(fall > real(0.0f), real(1.0f), select(fall < real(0.0f), real(-1.0f), real(0.0f)));
+    real side = select(fall > real(0.0f), real(1.0f), select(fall < real(0.0f), real(-1.0f), real(0.0f)));
+    const bool anyCut = cut != nullptr && !none(cut->here);
+    vec3 facing = normal;
+    if (anyCut) {
+        facing = select(cut->here, cut->normal, normal);
+        side = select(cut->here, real(1.0f), side);
+    }
     if (HWY_UNLIKELY(frame.lightInFull)) {
-        const vec3 lit = lightInFull(frame, batch, j, middles(), place(), {mean, opacity, side, towards});
-        return {lit.x, lit.y, lit.z, opacity};
+        const vec3 lit =
+            lightInFull(frame, batch, j, middles(), place(), {mean, opacity, side, towards, anyCut ? cut : nullptr});
+        return {lit.x, lit.y, lit.z, opacity, depth};
     }
     vec3 light = real(shading.ambient) * mean;
-    if (batch.gradient[j] > 0) {
+    if (batch.gradient[j] > 0 || anyCut) {
         const real transmitted = shading.transmission ? real(1.0f) - opacity : real(0.0f);
         for (const auto& source : frame.lights)
-            light = light + lightTerm(mean, normal, -towards, vec3(real(source[0]), real(source[1]), real(source[2])),
+            light = light + lightTerm(mean, facing, -towards, vec3(real(source[0]), real(source[1]), real(source[2])),
                                       side, transmitted, real(shading.exponent));
     }
-    return {light.x, light.y, light.z, opacity};
+    return {light.x, light.y, light.z, opacity, depth};
 }
 
 }  // namespace tetralux::projection::HWY_NAMESPACE

@@ -44,9 +44,21 @@ enum class TileKind {
     Composite,   ///< colour and transmittance, front to back
     Absorption,  ///< optical depth only: all that is seen has one colour
     Mip,
+    Minimum,
     Average,
     Shaded,  ///< composite with silhouettes or light
-    FirstHit
+    FirstHit,
+    // by the kernel that also honours limits and other classifications only (drawLimitedTile)
+    Additive,     ///< light of all segments, none hidden
+    Depth,        ///< where along the ray something is first seen
+    Contribution  ///< cells and path that show
+};
+
+/// Pixel maps (pixel_maps.h) in the terms of tiles, width·height each.
+struct TileLimits {
+    std::vector<float> nearest, farthest;      ///< as nearness along rays: segments lie between
+    std::vector<float> scale;                  ///< of extinction; empty: 1
+    std::vector<std::array<float, 3>> normal;  ///< of the cut at `nearest`, as (right, down, forward); empty: none
 };
 
 /// The same for all tiles of one frame.
@@ -74,6 +86,11 @@ struct TileFrame {
     std::array<glm::vec3, 3> axes;  ///< right, down, forward in world space
     const shading::VertexLight* vertexLight;
     bool earlyTermination;
+    const TileLimits* limits = nullptr;
+    Classification classification = Classification::Preintegrated;
+    glm::vec3 constantColor{0};                  ///< Absorption: of all that is seen
+    bool emissionOnly = false;                   ///< Additive: alpha stays 0
+    double greyOfZero = 0, greyPerDistance = 0;  ///< Depth: grey as a function of the distance, scene lengths
 };
 
 struct TileResult {
@@ -89,6 +106,10 @@ inline constexpr float leastTransmittance = 1e-6f;
 /// Draws the tile whose first pixel is (x0, y0) into `image`.
 void drawTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
               TileResult& result);
+
+/// The same with all kinds, within `frame.limits` and with `frame.classification`; not as fast.
+void drawLimitedTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+                     TileResult& result);
 
 /// Name of the instruction set that drawTile uses.
 const char* tileInstructionSet();

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <projection/adaptive_opacity.h>
 #include <projection/cpu_engine.h>
 #include <projection/engine.h>
 #include <projection/exact_repair.h>
@@ -39,12 +40,21 @@ std::vector<std::string> engineNames() {
 }
 
 std::unique_ptr<Engine> makeEngine(const Scene& wanted, const EngineOptions& options) {
-    const Scene scene = withScalarsInRange(wanted);
-    const std::string name = options.engine == "auto" ? engines.front().name : options.engine;
+    const Scene scene = withVertexLight(withScalarsInRange(wanted));
+    const bool onlyReference = scene.settings.classification == Classification::Pre;
+    if (onlyReference && options.engine != "reference" && options.engine != "auto")
+        throw std::runtime_error(
+            fmt::format("engine '{}': only the reference engine draws with pre-classification; take reference or auto",
+                        options.engine));
+    const std::string name = options.engine != "auto" ? options.engine
+                             : onlyReference          ? "reference"
+                                                      : engines.front().name;
     for (const auto& engine : engines)
         if (name == engine.name) {
-            const Scene prepared = withVertexLight(scene);
-            return withViewMaps(withExactRepair(engine.make(prepared, options), prepared), prepared);
+            const MakeEngine plain = [&](const Scene& part) {
+                return withExactRepair(engine.make(part, options), part);
+            };
+            return withViewMaps(scene.settings.adaptive ? makeAdaptiveEngine(scene, plain) : plain(scene), scene);
         }
     throw std::runtime_error(fmt::format("engine '{}': there is no such engine; take one of auto, {}", options.engine,
                                          fmt::join(engineNames(), ", ")));

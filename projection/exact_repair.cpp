@@ -20,7 +20,9 @@ class RepairedEngine final : public Engine {
 public:
     RepairedEngine(std::unique_ptr<Engine> engine, const Scene& scene)
         : engine_(std::move(engine)), scene_(scene), caster_(scene) {
-        const bool dense = scene.settings.mode != Mode::Mip && scene.settings.mode != Mode::Average;
+        const Mode mode = scene.settings.mode;
+        const bool dense = mode == Mode::Standard || mode == Mode::ScaleInvariant || mode == Mode::FirstHit ||
+                           mode == Mode::Absorption;
         if (dense && engine_->name() != "reference")
             beyondFloat_ = cellsBeyondFloat(*scene.mesh, scene.transferFunction, integralOf(scene.settings.mode));
     }

@@ -24,6 +24,7 @@ target_sources(tetralux_projection PRIVATE
   gl_engine.cpp
   gl_frame_target.cpp
   gl_functions.cpp
+  gl_limits.cpp
   gl_program.cpp
   gl_resolve.cpp
   gl_sampler_probe.cpp
@@ -42,10 +43,13 @@ tetralux_embed_shaders(tetralux_projection FILES
   projection/gl_cell_record.glsl
   projection/gl_full_screen.vert
   projection/gl_light.glsl
+  projection/gl_modes.glsl
   projection/gl_precision.glsl
   projection/gl_sampler_probe.frag
   projection/gl_segment.glsl
   projection/gl_table.glsl
+  projection/gl_variants.glsl
   shading/cell_shading.glsl
   shading/light_model.glsl
+  shading/silhouette.glsl
 )

@@ -2,15 +2,7 @@
 //
 // One pixel of one cell: cut the ray by the cell's planes (projection/cell_interval.glsl), look up what light meets in between, shade it.
 // Written back to front over what lies behind, premultiplied.
-//
-// Variants (0 or 1 unless said otherwise): TETRALUX_ORTHOGRAPHIC, TETRALUX_MODE (one of the numbers below), TETRALUX_SCALE_INVARIANT,
-// TETRALUX_INTERFACES (how many), TETRALUX_SUPPORTS (how many), TETRALUX_SILHOUETTE, TETRALUX_LIGHTS (how many), TETRALUX_GRADIENT (silhouette or
-// lights), TETRALUX_FULL_LIGHT (anything but the plain lights of shading/cell_shading.glsl), TETRALUX_ATTRIBUTES (vertices have some),
-// TETRALUX_LENGTH (whether anything reads the segment's length).
-#define TETRALUX_MODE_VOLUME 0
-#define TETRALUX_MODE_MIP 1
-#define TETRALUX_MODE_AVERAGE 2
-#define TETRALUX_MODE_FIRST_HIT 3
+// The variants stand in projection/gl_variants.glsl.
 
 flat in vec4 cell0, cell1, cell2, cell3, cell4, cell5;
 #if TETRALUX_GRADIENT
@@ -19,6 +11,20 @@ flat in vec4 gradient;  // unit normal, magnitude in scene units
 layout(location = 0) out vec4 result;
 
 uniform vec2 centre;        // pixel coordinates of the optical axis
+
+#if TETRALUX_LIMITS
+uniform sampler2D limits;  // nearness at which the volume begins and ends, factor of extinction (projection/ray_nearness.h)
+uniform sampler2D cutNormals;
+uniform float depthReference;
+
+float rhoOfNearness(CellRecord cell, float nearness) {
+#if TETRALUX_ORTHOGRAPHIC
+    return (cell.scale - depthReference + nearness) / abs(cell.scale);
+#else
+    return ((cell.scale - depthReference) + cell.scale * nearness) / depthReference;
+#endif
+}
+#endif
 
 // rho where the ray enters (x) and leaves (y) the cell, at the sample dx, dy pixels beside the reference point. Nothing is inside
 // where x ≤ y.
@@ -59,12 +65,33 @@ float segmentLength(CellRecord cell, vec2 rho, vec2 fromCentre) {
 }
 #endif
 
+#if TETRALUX_MODE == TETRALUX_MODE_DEPTH
+// Distance along the ray, scene lengths.
+float distanceTo(CellRecord cell, float rho, vec2 fromCentre) {
+#if TETRALUX_ORTHOGRAPHIC
+    return cell.scale - abs(cell.scale) * rho;
+#else
+    return sqrt(1.0 + dot(viewRight, viewRight) * dot(fromCentre, fromCentre)) * cell.scale * depthRatio(rho);
+#endif
+}
+#endif
+
 void main() {
     CellRecord cell = unpackRecord(cell0, cell1, cell2, cell3, cell4, cell5);
     vec2 pixel = gl_FragCoord.xy - 0.5;
     float dx = (pixel.x - cell.pixel.x) - cell.fraction.x;
     float dy = (pixel.y - cell.pixel.y) - cell.fraction.y;
     vec2 rho = rhoInterval(cell, dx, dy);
+    vec3 cutNormal = vec3(0.0);
+#if TETRALUX_LIMITS
+    vec4 limit = texelFetch(limits, ivec2(gl_FragCoord.xy), 0);
+    float nearest = rhoOfNearness(cell, limit.x);
+#if TETRALUX_LIGHTS
+    if (nearest < rho.x) cutNormal = texelFetch(cutNormals, ivec2(gl_FragCoord.xy), 0).xyz;
+#endif
+    rho = vec2(min(rho.x, nearest), max(rho.y, rhoOfNearness(cell, limit.y)));
+    interfaceScale = limit.z;
+#endif
     if (!(rho.x > rho.y)) discard;
     float front = scalarAtRho(cell, dx, dy, rho.x);
     float back = scalarAtRho(cell, dx, dy, rho.y);
@@ -75,8 +102,19 @@ void main() {
 
 #if TETRALUX_MODE == TETRALUX_MODE_MIP
     result = vec4(max(front, back));
+#elif TETRALUX_MODE == TETRALUX_MODE_MINIMUM
+    result = vec4(min(front, back));
 #elif TETRALUX_MODE == TETRALUX_MODE_AVERAGE
     result = vec4(0.5 * (front + back) * len, len, 0.0, 0.0);
+#elif TETRALUX_MODE == TETRALUX_MODE_CONTRIBUTION
+    Gathered segment = gatherSegment(front, back, len);
+    float shows = segment.smoothDepth + segment.otherDepth > 0.0 ? 1.0 : 0.0;
+    result = vec4(shows, segment.smoothDepth, 0.0, 0.0);
+#elif TETRALUX_MODE == TETRALUX_MODE_DEPTH
+    float step = firstShown(front, back);
+    if (step > 1e30) discard;
+    float along = front == back ? 0.0 : len * min(step / abs(back - front), 1.0);
+    result = vec4(distanceTo(cell, rho.x, pixel - centre) + along, 0.0, 0.0, 1.0);
 #else
     vec3 view = vec3(0.0);
     vec4 normalAndMagnitude = vec4(0.0);
@@ -95,10 +133,12 @@ void main() {
     across = cell.scalarPerX * dx + cell.scalarPerY * dy;
 #endif
     float side = sign(scalarFall(across, cell.scalarPerRho));
-    vec4 perOpacity = shadedSegment(front, back, len, side, view, normalAndMagnitude);
+    vec4 perOpacity = shadedSegment(front, back, len, side, view, normalAndMagnitude, cutNormal);
 #if TETRALUX_MODE == TETRALUX_MODE_FIRST_HIT
     if (!segmentShows(front, back)) discard;
     result = vec4(perOpacity.rgb, 1.0);
+#elif TETRALUX_MODE == TETRALUX_MODE_ABSORPTION
+    result = vec4(perOpacity.a, 0.0, 0.0, 0.0);
 #else
     result = vec4(perOpacity.rgb * perOpacity.a, perOpacity.a);
 #endif

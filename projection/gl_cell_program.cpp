@@ -27,6 +27,18 @@ int shaderMode(Mode mode) {
             return 2;
         case Mode::FirstHit:
             return 3;
+        case Mode::Minimum:
+            return 4;
+        case Mode::Additive:
+        case Mode::Emission:
+            return 5;
+        case Mode::Absorption:
+            return 6;
+        case Mode::Depth:
+            return 7;
+        case Mode::Contribution:
+        case Mode::DataContribution:
+            return 8;
     }
     return 0;
 }
@@ -50,21 +62,31 @@ std::string vectorLiterals(const std::vector<Vector>& vectors) {
 }
 
 GlDefines variant(const RenderSettings& settings, const shading::VertexLight& vertexLight, std::size_t supports,
-                  const preint::PreintegrationTable* table, bool orthographic, bool linearSampler) {
+                  const preint::PreintegrationTable* table, GlFrameKind kind, bool linearSampler) {
     const auto& shading = settings.shading;
     const bool looksUp = table != nullptr;
-    const bool scaleInvariant = integralOf(settings.mode) == preint::Integral::ScaleInvariant;
-    const bool silhouette = looksUp && shading.silhouette;
-    const bool length = settings.mode == Mode::Average || (looksUp && (!scaleInvariant || silhouette));
-    const int lights = looksUp ? static_cast<int>(shading.lights.size()) : 0;
+    const bool dataSpace = integralOf(settings.mode) == preint::Integral::ScaleInvariant;
+    const bool scaleInvariant = dataSpace && (!looksUp || table->integral == preint::Integral::ScaleInvariant);
+    const bool shades = looksUp && settings.mode != Mode::Depth && settings.mode != Mode::Contribution &&
+                        settings.mode != Mode::DataContribution;
+    const bool silhouette = shades && shading.silhouette, levoy = shades && shading.gradientOpacity > 0;
+    const bool length = settings.mode == Mode::Average || (looksUp && (!dataSpace || silhouette));
+    const int lights = shades ? static_cast<int>(shading.lights.size()) : 0;
     GlDefines defines;
-    defines.set("TETRALUX_ORTHOGRAPHIC", orthographic);
+    defines.set("TETRALUX_ORTHOGRAPHIC", kind.orthographic);
+    defines.set("TETRALUX_LIMITS", kind.limited);
     defines.set("TETRALUX_MODE", shaderMode(settings.mode));
     defines.set("TETRALUX_SCALE_INVARIANT", scaleInvariant);
-    defines.set("TETRALUX_SUPPORTS", settings.mode == Mode::FirstHit ? static_cast<int>(supports) : 0);
+    defines.set("TETRALUX_DATA_SPACE", dataSpace);
+    const bool asksSupport = settings.mode == Mode::FirstHit || settings.mode == Mode::Depth;
+    defines.set("TETRALUX_SUPPORTS", asksSupport ? static_cast<int>(supports) : 0);
     defines.set("TETRALUX_SILHOUETTE", silhouette);
+    defines.set("TETRALUX_APPROXIMATE_SILHOUETTE", silhouette && shading.approximateSilhouette);
+    defines.set("TETRALUX_GRADIENT_OPACITY", levoy);
+    defines.set("TETRALUX_SAMPLED", shades && settings.classification != Classification::Preintegrated);
+    defines.set("TETRALUX_LINEAR_OPACITY", shades && settings.classification == Classification::PostLinear);
     defines.set("TETRALUX_LIGHTS", lights);
-    defines.set("TETRALUX_GRADIENT", silhouette || lights > 0);
+    defines.set("TETRALUX_GRADIENT", silhouette || levoy || lights > 0);
     const bool full = lights > 0 && !shading.plain();
     defines.set("TETRALUX_FULL_LIGHT", full);
     defines.set("TETRALUX_ATTRIBUTES", full ? vertexLight.stride / 4 : 0);
@@ -92,12 +114,14 @@ GlDefines variant(const RenderSettings& settings, const shading::VertexLight& ve
 }
 
 std::vector<std::string_view> fragmentFiles(bool looksUp) {
-    std::vector<std::string_view> files{"preint/glsl_prelude.glsl",      "projection/gl_precision.glsl",
-                                        "projection/cell_interval.glsl", "projection/gl_cell_record.glsl",
-                                        "shading/light_model.glsl",      "projection/gl_light.glsl"};
+    std::vector<std::string_view> files{"preint/glsl_prelude.glsl",       "projection/gl_precision.glsl",
+                                        "projection/gl_variants.glsl",    "projection/cell_interval.glsl",
+                                        "projection/gl_cell_record.glsl", "shading/light_model.glsl",
+                                        "projection/gl_light.glsl"};
     if (looksUp) {
         files.insert(files.end(), {"projection/gl_table.glsl", "preint/table_lookup.glsl", "preint/gather_segment.glsl",
-                                   "shading/cell_shading.glsl", "projection/gl_segment.glsl"});
+                                   "shading/cell_shading.glsl", "shading/silhouette.glsl", "projection/gl_modes.glsl",
+                                   "projection/gl_segment.glsl"});
     }
     files.push_back("projection/gl_cell.frag");
     return files;
@@ -110,7 +134,7 @@ void setVector(const GlFunctions& gl, GLint location, const glm::dvec3& value) {
 }  // namespace
 
 bool modeLooksUp(Mode mode) {
-    return mode != Mode::Mip && mode != Mode::Average;
+    return mode != Mode::Mip && mode != Mode::Minimum && mode != Mode::Average;
 }
 
 GlTableTexture::GlTableTexture(const GlFunctions& gl, const preint::PreintegrationTable& table)
@@ -175,16 +199,17 @@ void GlVertexLight::bind(GLuint unit) const {
 
 GlCellProgram::GlCellProgram(const GlFunctions& gl, const RenderSettings& settings,
                              const shading::VertexLight& vertexLight, const preint::TransferFunction& function,
-                             const preint::PreintegrationTable* table, bool orthographic, bool linearSampler)
+                             const preint::PreintegrationTable* table, GlFrameKind kind, bool linearSampler)
     : gl_(gl),
       program_(
-          gl, variant(settings, vertexLight, extinctionSupport(function).size(), table, orthographic, linearSampler),
+          gl, variant(settings, vertexLight, extinctionSupport(function).size(), table, kind, linearSampler),
           {{GL_VERTEX_SHADER, {"projection/gl_cell.vert"}}, {GL_FRAGMENT_SHADER, fragmentFiles(table != nullptr)}}),
       ndcPerPixel_(program_.uniform("ndcPerPixel")),
       centre_(program_.uniform("centre")),
       viewForward_(program_.uniform("viewForward")),
       viewRight_(program_.uniform("viewRight")),
       viewDown_(program_.uniform("viewDown")),
+      depthReference_(program_.uniform("depthReference")),
       lightPlace_(program_.uniform("lightPlace")),
       lightFade_(program_.uniform("lightFade")) {
     program_.use();
@@ -207,6 +232,9 @@ void GlCellProgram::setConstants(const RenderSettings& settings, const std::vect
     gl_.Uniform1f(program_.uniform("exponent"), static_cast<float>(shading.exponent));
     gl_.Uniform1f(program_.uniform("transmission"), shading.transmission ? 1.0f : 0.0f);
     setLightModel(shading);
+    gl_.Uniform1f(program_.uniform("gradientOpacity"), static_cast<float>(shading.gradientOpacity));
+    gl_.Uniform1i(program_.uniform("limits"), static_cast<GLint>(limitsUnit));
+    gl_.Uniform1i(program_.uniform("cutNormals"), static_cast<GLint>(limitsUnit) + 1);
     if (table == nullptr) return;
 
     gl_.Uniform1i(program_.uniform("tableTexels"), 0);
@@ -238,7 +266,7 @@ void GlCellProgram::setLightModel(const shading::ShadingSettings& shading) const
                   model.specularThrough);
     gl_.Uniform3f(program_.uniform("kappaGammaAsymmetry"), model.kappa, model.gamma, model.asymmetry);
     gl_.Uniform3f(program_.uniform("ambientColor"), model.ambient.x, model.ambient.y, model.ambient.z);
-    gl_.Uniform1i(program_.uniform("vertexLight"), 1);
+    gl_.Uniform1i(program_.uniform("vertexLight"), static_cast<GLint>(vertexLightUnit));
 }
 
 void GlCellProgram::setLights(const std::vector<FrameLight>& lights, const SceneUnits& units) const {
@@ -258,7 +286,7 @@ void GlCellProgram::setLights(const std::vector<FrameLight>& lights, const Scene
     gl_.Uniform1f(program_.uniform("perLength"), static_cast<float>(1.0 / units.length));
 }
 
-void GlCellProgram::use(const CameraFrame& frame) const {
+void GlCellProgram::use(const CameraFrame& frame, double depthReference) const {
     program_.use();
     gl_.Uniform2f(ndcPerPixel_, 2.0f / static_cast<float>(frame.width), 2.0f / static_cast<float>(frame.height));
     const glm::dvec2 centre = frame.centre - frame.sampleShift;  // where the axis is, seen from the samples
@@ -266,6 +294,7 @@ void GlCellProgram::use(const CameraFrame& frame) const {
     setVector(gl_, viewForward_, frame.forward);
     setVector(gl_, viewRight_, frame.perPixelRight);
     setVector(gl_, viewDown_, frame.perPixelDown);
+    gl_.Uniform1f(depthReference_, static_cast<float>(depthReference));
 }
 
 }  // namespace tetralux::projection

@@ -15,9 +15,17 @@
 
 namespace tetralux::projection {
 
-/// Whether the mode composites segments, so that it needs a table (and, but for order-free functions, a visibility
-/// order).
+/// Whether the mode looks segments up in a table.
 bool modeLooksUp(Mode mode);
+
+/// Texture units of a frame.
+inline constexpr GLuint tableUnit = 0, vertexLightUnit = 1, limitsUnit = 2;  ///< limits take two: gl_limits.h
+
+/// The kinds of frames that a scene may ask for.
+struct GlFrameKind {
+    bool orthographic = false;
+    bool limited = false;  ///< within pixel maps
+};
 
 /// A pre-integration table as a texture, 2D or 3D, zones stacked along its rows.
 class GlTableTexture {
@@ -57,11 +65,11 @@ public:
     /// `function` and `table` in scene units; `table` may be null for modes without. `linearSampler`: the texture
     /// unit interpolates (gl_sampler_probe.h), else the shader does.
     GlCellProgram(const GlFunctions& gl, const RenderSettings& settings, const shading::VertexLight& vertexLight,
-                  const preint::TransferFunction& function, const preint::PreintegrationTable* table, bool orthographic,
+                  const preint::TransferFunction& function, const preint::PreintegrationTable* table, GlFrameKind kind,
                   bool linearSampler);
 
     /// Makes it current for drawing from that camera.
-    void use(const CameraFrame& frame) const;
+    void use(const CameraFrame& frame, double depthReference) const;
 
     /// The lights of that camera, for programs of light in full; after use().
     void setLights(const std::vector<FrameLight>& lights, const SceneUnits& units) const;
@@ -74,7 +82,7 @@ private:
 
     const GlFunctions& gl_;
     GlProgram program_;
-    GLint ndcPerPixel_, centre_, viewForward_, viewRight_, viewDown_, lightPlace_, lightFade_;
+    GLint ndcPerPixel_, centre_, viewForward_, viewRight_, viewDown_, depthReference_, lightPlace_, lightFade_;
 };
 
 }  // namespace tetralux::projection

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include <tbb/blocked_range.h>
@@ -18,8 +19,10 @@
 #include <projection/gl_cell_stream.h>
 #include <projection/gl_context.h>
 #include <projection/gl_frame_target.h>
+#include <projection/gl_limits.h>
 #include <projection/gl_resolve.h>
 #include <projection/gl_sampler_probe.h>
+#include <projection/ray_nearness.h>
 #include <projection/transfer_support.h>
 #include <projection/visibility_order.h>
 #include <glm/geometric.hpp>
@@ -48,7 +51,8 @@ struct GlState {
     std::optional<GlCellStream> stream;
     std::optional<GlTableTexture> table;
     std::optional<GlVertexLight> vertexLight;
-    std::array<std::unique_ptr<GlCellProgram>, 2> programs;  // perspective, orthographic: made when first needed
+    std::array<std::unique_ptr<GlCellProgram>, 4> programs;  // by GlFrameKind: made when first needed
+    std::optional<GlLimits> limits;                          // made when first needed
 };
 
 /// Pixels by which outlines grow: rasterizers move vertices by up to half a step of their grid, and corners are float.
@@ -94,10 +98,14 @@ preint::PreintegrationTable buildTable(const Scene& scene, const preint::Transfe
     const preint::ExactIntegral exact(function);
     preint::TableOptions options = scene.settings.table;
     options.evenTexelsFirst = true;
+    const double largestScale = scene.settings.largestExtinctionScale;
     if (integralOf(scene.settings.mode) == preint::Integral::ScaleInvariant) {
-        return preint::buildScaleInvariantTable(exact, 0.0, 1.0, options);
+        if (largestScale == 0.0) return preint::buildScaleInvariantTable(exact, 0.0, 1.0, options);
+        // scaled extinction is that of a longer path: the table of paths holds both
+        return preint::buildStandardTable(exact, 0.0, 1.0, largestScale, options);
     }
-    return preint::buildStandardTable(exact, 0.0, 1.0, longestEdge(*scene.mesh, units), options);
+    return preint::buildStandardTable(exact, 0.0, 1.0, longestEdge(*scene.mesh, units) * std::max(largestScale, 1.0),
+                                      options);
 }
 
 class GlEngine final : public Engine {
@@ -110,7 +118,8 @@ public:
           function_(inSceneUnits(scene.transferFunction, units_, integralOf(scene.settings.mode))),
           context_(makeGlContext(options.context)) {
         Stopwatch watch;
-        layout_.gradient = modeLooksUp(mode()) && scene.settings.shading.needsGradient();
+        layout_.gradient = modeLooksUp(mode()) && mode() != Mode::Depth && mode() != Mode::Contribution &&
+                           mode() != Mode::DataContribution && scene.settings.shading.needsGradient();
         if (modeLooksUp(mode())) {
             table_ = buildTable(scene, function_, units_);
             findVisibleCells();
@@ -119,7 +128,7 @@ public:
             fullLight_ = shading.lit() && !shading.plain();
             layout_.attributes = fullLight_ && vertexLight_->any();
             prepare_["light"] = watch.lap();
-            sorter_.emplace(*scene.mesh, scene.settings.order);
+            if (!orderFree(mode())) sorter_.emplace(*scene.mesh, scene.settings.order);
             prepare_["adjacency"] = watch.lap();
         } else {
             cellShows_.assign(scene.mesh->cells.size(), 1);
@@ -154,8 +163,9 @@ private:
     Mode mode() const { return scene_.settings.mode; }
     void makeState();
     void findVisibleCells();
-    const GlCellProgram& program(bool orthographic);
+    const GlCellProgram& program(GlFrameKind kind);
     void setBlending() const;
+    void checkScales(const PixelMaps& maps) const;
     std::vector<mesh::CellIndex> drawingOrder(const CameraFrame& frame, FrameReport& report);
     std::vector<DrawnCell> selectCells(const CellProjector& projector, const std::vector<mesh::CellIndex>& order,
                                        FrameReport& report) const;
@@ -204,26 +214,35 @@ void GlEngine::findVisibleCells() {
                       });
 }
 
-const GlCellProgram& GlEngine::program(bool orthographic) {
-    auto& made = state_->programs[orthographic ? 1 : 0];
+const GlCellProgram& GlEngine::program(GlFrameKind kind) {
+    auto& made = state_->programs[(kind.orthographic ? 1u : 0u) + (kind.limited ? 2u : 0u)];
     if (!made) {
-        made = std::make_unique<GlCellProgram>(*state_->gl, scene_.settings, *vertexLight_, function_, table(),
-                                               orthographic, state_->linearSampler);
+        made = std::make_unique<GlCellProgram>(*state_->gl, scene_.settings, *vertexLight_, function_, table(), kind,
+                                               state_->linearSampler);
     }
     return *made;
+}
+
+/// Tables are made for the largest path that they are asked for.
+void GlEngine::checkScales(const PixelMaps& maps) const {
+    const auto largest = std::max_element(maps.extinctionScale.begin(), maps.extinctionScale.end());
+    if (largest != maps.extinctionScale.end() &&
+        static_cast<double>(*largest) > scene_.settings.largestExtinctionScale * (1.0 + 1e-6))
+        throw std::runtime_error(
+            "pixel map 'extinctionScale': a factor above the scene's largestExtinctionScale; set that to the largest");
 }
 
 void GlEngine::setBlending() const {
     const GlFunctions& gl = *state_->gl;
     gl.Disable(GL_DEPTH_TEST);
     gl.Disable(GL_CULL_FACE);
-    if (mode() == Mode::FirstHit) {
+    if (mode() == Mode::FirstHit || mode() == Mode::Depth) {
         gl.Disable(GL_BLEND);  // what is in front overwrites
         return;
     }
     gl.Enable(GL_BLEND);
-    gl.BlendEquation(mode() == Mode::Mip ? GL_MAX : GL_FUNC_ADD);
-    gl.BlendFunc(GL_ONE, mode() == Mode::Average ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
+    gl.BlendEquation(mode() == Mode::Mip ? GL_MAX : mode() == Mode::Minimum ? GL_MIN : GL_FUNC_ADD);
+    gl.BlendFunc(GL_ONE, orderFree(mode()) ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
 }
 
 // Back to front, or as they come where order does not matter.
@@ -321,10 +340,19 @@ Image GlEngine::render(const View& view, FrameReport& report) {
     const CurrentGlContext current(*context_);
     const GlFunctions& gl = *state_->gl;
     state_->target->begin(frame.width, frame.height, clearValue(mode()));
-    if (state_->table) state_->table->bind(0);
-    if (state_->vertexLight) state_->vertexLight->bind(1);
-    program(frame.orthographic).use(frame);
-    if (fullLight_) program(frame.orthographic).setLights(frameLights(scene_.settings.shading, units_, frame), units_);
+    const bool limited = view.maps != nullptr && view.maps->changeVolume();
+    const double depthReference = depthReferenceOf(scene_.mesh->bounds, frame, units_);
+    if (limited) {
+        checkScales(*view.maps);
+        if (!state_->limits) state_->limits.emplace(gl);
+        state_->limits->upload(*view.maps, frame, units_, depthReference);
+        state_->limits->bind(limitsUnit);
+    }
+    if (state_->table) state_->table->bind(tableUnit);  // after uploads, which bind textures of their own
+    if (state_->vertexLight) state_->vertexLight->bind(vertexLightUnit);
+    const GlCellProgram& cellProgram = program({frame.orthographic, limited});
+    cellProgram.use(frame, depthReference);
+    if (fullLight_) cellProgram.setLights(frameLights(scene_.settings.shading, units_, frame), units_);
     setBlending();
     stages["draw"] = watch.lap();
     const double margin = outlineMargin(gl, frame);
@@ -339,7 +367,7 @@ Image GlEngine::render(const View& view, FrameReport& report) {
     stages["draw"] += times.draw + watch.lap();
 
     Image image = state_->target->read();
-    resolveOrderFree(image, mode(), scene_.transferFunction, units_);
+    resolveOrderFree(image, scene_, view.camera, units_);
     stages["read back"] = watch.lap();
     report.frameMilliseconds = whole.lap();
     return image;

@@ -65,7 +65,7 @@ vec3 arriving(int i, vec3 view, out vec3 towards) {
 }
 
 // Colour per α. `gradient`: the cell's unit normal and |g|.
-vec3 lightInFull(vec3 meanColor, float opacity, float side, vec3 view, vec4 gradient) {
+vec3 lightInFull(vec3 meanColor, float opacity, float side, vec3 view, vec4 gradient, bool cut) {
     LightModel model;
     model.kind = TETRALUX_REFLECTANCE;
     model.frontSpecular = specularOf[0];
@@ -85,10 +85,12 @@ vec3 lightInFull(vec3 meanColor, float opacity, float side, vec3 view, vec4 grad
     point.normal = gradient.xyz;
     float magnitude = gradient.w;
 #if TETRALUX_NORMAL_AT >= 0
-    vec3 smoothed = vectorAt(TETRALUX_NORMAL_AT);
-    magnitude = dot(smoothed, smoothed);
-    point.normal = smoothed * inversesqrt(max(magnitude, 1e-30));
-    magnitude = magnitude > 1e-30 ? magnitude : 0.0;
+    if (!cut) {
+        vec3 smoothed = vectorAt(TETRALUX_NORMAL_AT);
+        magnitude = dot(smoothed, smoothed);
+        point.normal = smoothed * inversesqrt(max(magnitude, 1e-30));
+        magnitude = magnitude > 1e-30 ? magnitude : 0.0;
+    }
 #endif
     if (TETRALUX_REFLECTANCE != 4 && !(magnitude > 0.0)) return light;
     point.view = view;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <preint/transfer_function.h>
+#include <projection/camera.h>
 #include <projection/cell_setup.h>
 #include <projection/image.h>
 #include <projection/scene.h>
@@ -13,9 +14,10 @@ namespace tetralux::projection {
 /// Value that the target of a mode is cleared to: nothing is there where it stays.
 float clearValue(Mode mode);
 
-/// Replaces what Mode::Mip (largest scalar in red, scene units) or Mode::Average (∫s dl in red, path length in green)
-/// gathered by the colour of `function` (absolute units). Other modes: nothing to do. On the processor in double:
-/// the function is evaluated exactly, and one pass over the pixels is a small part of a frame.
-void resolveOrderFree(Image& image, Mode mode, const preint::TransferFunction& function, const SceneUnits& units);
+/// Replaces what the order-free modes and Mode::Depth gathered per pixel (extreme scalar in red; ∫s dl in red and path
+/// length in green; light and depth; depth in red; distance in red; scene units) by the picture. Other modes: nothing
+/// to do. On the processor in double: the transfer function is evaluated exactly, and one pass over the pixels is a
+/// small part of a frame.
+void resolveOrderFree(Image& image, const Scene& scene, const Camera& camera, const SceneUnits& units);
 
 }  // namespace tetralux::projection

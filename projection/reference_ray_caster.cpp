@@ -15,10 +15,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <projection/cell_setup.h>
 #include <projection/cell_shading.h>
 #include <projection/light_frame.h>
 #include <projection/ray_triangle.h>
 #include <projection/reference_light.h>
+#include <projection/reference_segment.h>
 
 namespace tetralux::projection {
 
@@ -91,32 +93,6 @@ std::optional<RaySegment> cut(const RayFrame& ray, const mesh::ScalarMesh& mesh,
     return segment;
 }
 
-/// The part of a segment between two distances; false when there is none.
-bool limit(RaySegment& segment, double nearest, double farthest) {
-    const double tIn = std::max(segment.tIn, nearest), tOut = std::min(segment.tOut, farthest);
-    if (!(tOut > tIn)) return false;
-    const double from = segment.scalarIn, to = segment.scalarOut, start = segment.tIn;
-    const double length = segment.tOut - segment.tIn;
-    if (tIn > segment.tIn) {
-        segment.scalarIn = glm::mix(from, to, (tIn - start) / length);
-        segment.cutInFront = true;
-    }
-    if (tOut < segment.tOut) segment.scalarOut = glm::mix(from, to, (tOut - start) / length);
-    segment.tIn = tIn;
-    segment.tOut = tOut;
-    return true;
-}
-
-/// The function with extinction and the depth of its isosurfaces multiplied by `scale`.
-preint::TransferFunction scaledExtinction(preint::TransferFunction function, double scale) {
-    for (auto& node : function.extinction) node.extinction *= scale;
-    for (auto& surface : function.isosurfaces)
-        surface.opacity = surface.opacity < 1 ? -std::expm1(scale * std::log1p(-surface.opacity))
-                          : scale > 0         ? 1.0
-                                              : 0.0;
-    return function;
-}
-
 /// Some pixels of an image, or all: answers at once whether a rectangle holds any (Crow's summed-area table, 1984).
 class WantedPixels {
 public:
@@ -152,6 +128,7 @@ private:
 struct ReferenceRayCaster::Pass {
     const ReferenceRayCaster& caster;
     const CameraFrame frame;
+    const DepthRange depths;
     const PixelMaps* const maps;
     Image& image;
     WantedPixels wanted;
@@ -160,7 +137,12 @@ struct ReferenceRayCaster::Pass {
     std::atomic<std::uint64_t> segmentCount{0}, overlapCount{0};
 
     Pass(const ReferenceRayCaster& c, const View& view, Image& target)
-        : caster(c), frame(cameraFrame(view.camera)), maps(view.maps), image(target), met(c.scene_.mesh->cells.size()) {
+        : caster(c),
+          frame(cameraFrame(view.camera)),
+          depths(depthRange(c.scene_.mesh->bounds, view.camera)),
+          maps(view.maps),
+          image(target),
+          met(c.scene_.mesh->cells.size()) {
         checkPixelMaps(view);
         const mesh::ScalarMesh& mesh = *caster.scene_.mesh;
         const double pixel = glm::length(frame.perPixelRight);
@@ -266,8 +248,9 @@ struct ReferenceRayCaster::Pass {
                 segments.push_back(*segment);
                 met[cell].store(true, std::memory_order_relaxed);
             }
-        const PixelLimits limits = limitsAt(
+        PixelLimits limits = limitsAt(
             maps, static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x));
+        limits.depths = depths;
         image.at(x, y) = glm::vec4(caster.colorOf(ray, limits, segments));
         segmentCount += segments.size();
         for (std::size_t i = 1; i < segments.size(); ++i)
@@ -322,10 +305,11 @@ struct Gathered {
     glm::dvec4 pixel() const { return {color, 1.0 - transmittance}; }
 };
 
-/// Colour and opacity of one segment after silhouette and light.
+/// Colour (premultiplied by opacity; in modes that hide nothing by depth), opacity and depth of one segment after
+/// silhouette and light.
 struct Shaded {
     glm::dvec3 color;
-    double opacity;
+    double opacity, depth;
 };
 
 Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& ray, const RaySegment& segment,
@@ -333,22 +317,21 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
     const auto& shading = scene.settings.shading;
     const preint::Integral integral = integralOf(scene.settings.mode);
     const double length = segment.tOut - segment.tIn;
-    const auto whole = exact.segment(segment.scalarIn, segment.scalarOut, length, integral);
-    if (!shading.needsGradient()) return {whole.color, whole.opacity()};
+    const glm::dvec3 middle = ray.origin + (0.5 * segment.tIn + 0.5 * segment.tOut) * ray.direction;
+    const auto [unlitColor, plainDepth, smooth] = unshadedSegment(exact, scene, segment, middle);
+    const bool hides = scene.settings.mode != Mode::Additive && scene.settings.mode != Mode::Emission;
+    const bool linear = scene.settings.classification == Classification::PostLinear;
+    glm::dvec3 meanColor = unlitColor;
+    double depth = plainDepth, plain = plainDepth;
 
-    const glm::dvec3 gradient = mesh::cellGradient(*scene.mesh, segment.cell);
+    const glm::dvec3 gradient = shading.needsGradient() ? mesh::cellGradient(*scene.mesh, segment.cell) : glm::dvec3(0);
     const double magnitude = glm::length(gradient);
     const glm::dvec3 normal = magnitude > 0 ? gradient / magnitude : glm::dvec3(0);
     const double variation = std::abs(segment.scalarOut - segment.scalarIn);
-
-    double depth = whole.opticalDepth;
-    glm::dvec3 meanColor = whole.opacity() > 0 ? whole.color / whole.opacity() : glm::dvec3(0);
     if (shading.silhouette && magnitude > 0) {
         const double cosine = glm::dot(normal, ray.direction);
-        double smoothTimesK = 0.0, other = whole.opticalDepth;
+        double smoothTimesK = 0.0, other = depth;
         if (integral == preint::Integral::ScaleInvariant) {
-            const double smooth =
-                exact.smoothSegment(segment.scalarIn, segment.scalarOut, length, integral).opticalDepth;
             const double meanExtinction =
                 variation > 0 ? smooth / variation : exact.function().extinctionAt(segment.scalarIn);
             smoothTimesK = meanExtinction * magnitude * length;
@@ -357,14 +340,24 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
         }
         depth = glsl::silhouetteDepth(smoothTimesK, other, cosine);
     }
-    const double opacity = -std::expm1(-depth);
-    if (!shading.lit()) return {meanColor * opacity, opacity};
+    if (shading.gradientOpacity > 0) {  // Kraus 2005, Equation 18, with |g| in ranges per diagonal
+        const SceneUnits units = sceneUnits(*scene.mesh);
+        const double factor = shading.gradientOpacity * magnitude * units.length / units.scalarScale;
+        depth = depth > 0 ? depth * factor : 0.0;
+        plain = plain > 0 ? plain * factor : 0.0;
+    }
+    double opacity = -std::expm1(-depth);
+    if (shading.silhouette && shading.approximateSilhouette && magnitude > 0)
+        opacity = glsl::approximateSilhouetteOpacity(-std::expm1(-plain), std::min(plain, 1e30), std::min(depth, 1e60));
+    if (linear) opacity = glsl::linearOpacity(depth);
+    const double weight = hides ? opacity : depth;
+    if (!shading.lit()) return {meanColor * weight, opacity, depth};
 
     const double scalarStep = segment.scalarIn - segment.scalarOut;
     const bool cut = segment.cutInFront && cutNormal != glm::dvec3(0);
     SegmentToLight lit;
     lit.cell = segment.cell;
-    lit.middle = ray.origin + (0.5 * segment.tIn + 0.5 * segment.tOut) * ray.direction;
+    lit.middle = middle;
     lit.direction = ray.direction;
     lit.fromEye = 0.5 * segment.tIn + 0.5 * segment.tOut;
     lit.normal = cut ? cutNormal : normal;
@@ -372,7 +365,7 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
     lit.side = cut ? 1.0 : scalarStep > 0 ? 1.0 : scalarStep < 0 ? -1.0 : 0.0;
     lit.color = meanColor;
     lit.opacity = opacity;
-    return {litColor(scene, lit) * opacity, opacity};
+    return {litColor(scene, lit) * weight, opacity, depth};
 }
 
 }  // namespace
@@ -391,18 +384,19 @@ glm::dvec4 ReferenceRayCaster::colorOf(const Ray& ray, const PixelLimits& limits
                                        std::vector<RaySegment>& segments) const {
     if (limits.nearest > 0 || limits.farthest < HUGE_VAL)
         std::erase_if(segments, [&](RaySegment& s) { return !limit(s, limits.nearest, limits.farthest); });
-    if (limits.extinctionScale == 1.0) return composite(ray, exact_, limits.cutNormal, segments);
+    if (limits.extinctionScale == 1.0) return composite(ray, exact_, limits, segments);
     const preint::ExactIntegral scaled(scaledExtinction(scene_.transferFunction, limits.extinctionScale));
-    return composite(ray, scaled, limits.cutNormal, segments);
+    return composite(ray, scaled, limits, segments);
 }
 
-glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, const preint::ExactIntegral& exact,
-                                         const glm::dvec3& cutNormal, std::vector<RaySegment>& segments) const {
+glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, const preint::ExactIntegral& exact, const PixelLimits& limits,
+                                         std::vector<RaySegment>& segments) const {
     if (segments.empty()) return glm::dvec4(0);
     std::sort(segments.begin(), segments.end(), [](const RaySegment& a, const RaySegment& b) {
         return a.tIn != b.tIn ? a.tIn < b.tIn : a.tOut < b.tOut;
     });
     const preint::TransferFunction& function = exact.function();
+    const glm::dvec3& cutNormal = limits.cutNormal;
     switch (scene_.settings.mode) {
         case Mode::Standard:
         case Mode::ScaleInvariant: {
@@ -419,6 +413,45 @@ glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, const preint::ExactInte
                 largest = std::max({largest, segment.scalarIn, segment.scalarOut});
             return {function.colorAt(largest), 1.0};
         }
+        case Mode::Minimum: {
+            double smallest = std::numeric_limits<double>::infinity();
+            for (const RaySegment& segment : segments)
+                smallest = std::min({smallest, segment.scalarIn, segment.scalarOut});
+            return {function.colorAt(smallest), 1.0};
+        }
+        case Mode::Additive:
+        case Mode::Emission: {
+            glm::dvec3 color(0);
+            double sum = 0;
+            for (const RaySegment& segment : segments) {
+                const Shaded shaded = shade(exact, scene_, ray, segment, cutNormal);
+                color += shaded.color;
+                sum += shaded.depth;
+            }
+            return {color, scene_.settings.mode == Mode::Emission ? 0.0 : std::min(sum, 1.0)};
+        }
+        case Mode::Absorption: {
+            double depth = 0;
+            for (const RaySegment& segment : segments) depth += shade(exact, scene_, ray, segment, cutNormal).depth;
+            return {0, 0, 0, -std::expm1(-depth)};
+        }
+        case Mode::Contribution:
+        case Mode::DataContribution: {
+            double count = 0, path = 0;
+            for (const RaySegment& segment : segments) {
+                const double length = segment.tOut - segment.tIn;
+                const auto integral = integralOf(scene_.settings.mode);
+                const auto whole = exact.segment(segment.scalarIn, segment.scalarOut, length, integral);
+                count += whole.opticalDepth > 0 ? 1 : 0;
+                path += exact.smoothSegment(segment.scalarIn, segment.scalarOut, length, integral).opticalDepth;
+            }
+            return {count, path, 0, 0};
+        }
+        case Mode::Depth:
+            for (const RaySegment& segment : segments)
+                if (const auto distance = firstShownAt(exact, segment))
+                    return {glm::dvec3(limits.depths.greyAt(*distance)), 1.0};
+            return glm::dvec4(0);
         case Mode::Average: {
             double sum = 0, length = 0;
             for (const RaySegment& segment : segments) {

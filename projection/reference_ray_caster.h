@@ -55,10 +55,11 @@ private:
         double nearest = 0.0, farthest = HUGE_VAL;
         glm::dvec3 cutNormal{0};  ///< used for light where a segment begins at `nearest`; 0: none
         double extinctionScale = 1.0;
+        DepthRange depths{0.0, 1.0};  ///< of the camera, the same for all pixels
     };
     static PixelLimits limitsAt(const PixelMaps* maps, std::size_t pixel);
     glm::dvec4 colorOf(const Ray& ray, const PixelLimits& limits, std::vector<RaySegment>& segments) const;
-    glm::dvec4 composite(const Ray& ray, const preint::ExactIntegral& exact, const glm::dvec3& cutNormal,
+    glm::dvec4 composite(const Ray& ray, const preint::ExactIntegral& exact, const PixelLimits& limits,
                          std::vector<RaySegment>& segments) const;
 
     Scene scene_;  // with what its vertices carry for light

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -9,16 +10,12 @@
 #include <mesh/tet_mesh.h>
 #include <preint/preintegration_table.h>
 #include <preint/transfer_function.h>
+#include <projection/modes.h>
 #include <projection/pixel_maps.h>
 #include <shading/lights.h>
 #include <shading/vertex_light.h>
 
 namespace tetralux::projection {
-
-enum class Mode { Standard, ScaleInvariant, Mip, Average, FirstHit };
-
-/// The integral that a mode's segments use (first-hit asks for opacity > 0 by the standard one).
-preint::Integral integralOf(Mode mode);
 
 /// How cells are put in order. Auto takes the cheapest method that is certain for the mesh; the others are for
 /// measuring: Graph does without power keys (power_order.h), Centroid sorts by the distance of centroids, which is
@@ -29,6 +26,9 @@ struct RenderSettings {
     Mode mode = Mode::Standard;
     OrderMethod order = OrderMethod::Auto;
     shading::ShadingSettings shading;
+    Classification classification = Classification::Preintegrated;  ///< of standard, scale-invariant and first-hit
+    std::optional<AdaptiveSettings> adaptive;
+    double largestExtinctionScale = 0.0;  ///< of the pixel maps that views will bring; 0: they bring none
     preint::TableOptions table;
     int threads = 0;  ///< 0: all
 };

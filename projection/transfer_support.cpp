@@ -68,13 +68,24 @@ bool rangeShows(const preint::TransferFunction& function, const std::vector<glm:
                        });
 }
 
+namespace {
+
+/// Whether opacity below float's step may show: modes that take any for something, and what makes it larger.
+bool anyOpacityCounts(const RenderSettings& settings) {
+    return settings.mode == Mode::FirstHit || settings.mode == Mode::Depth || settings.mode == Mode::Contribution ||
+           settings.mode == Mode::DataContribution || settings.shading.silhouette ||
+           settings.shading.gradientOpacity > 0 || settings.largestExtinctionScale > 1.0;
+}
+
+}  // namespace
+
 CellVisibility::CellVisibility(const mesh::ScalarMesh& mesh, const preint::TransferFunction& function,
                                const RenderSettings& settings)
     : mesh_(mesh),
       integral_(integralOf(settings.mode)),
       exact_(function),
       support_(extinctionSupport(function)),
-      leastDepth_(settings.mode == Mode::FirstHit || settings.shading.silhouette ? 0.0 : leastOpacity) {}
+      leastDepth_(anyOpacityCounts(settings) ? 0.0 : leastOpacity) {}
 
 bool CellVisibility::shows(mesh::CellIndex cell) const {
     double low = mesh_.scalarAt(cell, 0), high = low;

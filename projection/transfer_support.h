@@ -28,9 +28,9 @@ public:
     CellVisibility(const mesh::ScalarMesh& mesh, const preint::TransferFunction& function,
                    const RenderSettings& settings);
 
-    /// False where the cell's opacity is zero or, but in first-hit mode and with silhouettes, which take any opacity
-    /// for something, at most half of float's step at 1 along any ray: it would change no opaque pixel, and others by
-    /// less than float's own error.
+    /// False where the cell's opacity is zero or, but in modes that take any opacity for something and where it is made
+    /// larger (silhouettes, factors of extinction), at most half of float's step at 1 along any ray: it would change no
+    /// opaque pixel, and others by less than float's own error.
     bool shows(mesh::CellIndex cell) const;
 
 private:

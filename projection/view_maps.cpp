@@ -17,11 +17,11 @@ public:
         const auto start = std::chrono::steady_clock::now();
         auto maps = view.maps != nullptr ? std::make_shared<PixelMaps>(*view.maps) : std::make_shared<PixelMaps>();
         for (const auto& source : sources_) source->apply(view.camera, *maps);
-        report.maps = maps;
         const double spent =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         Image image = engine_->render({view.camera, maps->changeVolume() ? maps.get() : nullptr}, report);
         composeBehind(image, *maps);
+        if (!report.maps) report.maps = maps;  // adaptive opacity adds to them
         report.stageMilliseconds["maps"] += spent;
         report.frameMilliseconds += spent;
         return image;

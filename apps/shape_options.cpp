@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <apps/shape_options.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <glm/geometric.hpp>
+
+#include <apps/add_option.h>
+
+namespace tetralux::apps {
+
+namespace {
+
+using projection::AdaptiveSettings;
+using projection::Classification;
+using projection::HalfSpace;
+using projection::Mode;
+
+/// τ_max of one cell; RenderSettings' own default is per diagonal.
+constexpr double mostPerCell = 0.1;
+
+/// Finite numbers with commas between them, as many as `Count`.
+template <std::size_t Count>
+std::array<double, Count> parseNumbers(const std::string& option, const std::string& text, const char* form) {
+    std::array<double, Count> numbers{};
+    const char *at = text.data(), *const end = text.data() + text.size();
+    bool good = true;
+    for (std::size_t i = 0; i < Count && good; ++i) {
+        const auto [stop, error] = std::from_chars(at, end, numbers[i]);
+        good = error == std::errc() && std::isfinite(numbers[i]) &&
+               (i + 1 < Count ? stop != end && *stop == ',' : stop == end);
+        at = stop + 1;
+    }
+    if (!good)
+        throw std::runtime_error(
+            fmt::format("{}: '{}' is not {} numbers; give {} without spaces", option, text, Count, form));
+    return numbers;
+}
+
+void checkNormal(const std::string& option, const glm::dvec3& normal) {
+    if (normal == glm::dvec3(0))
+        throw std::runtime_error(
+            fmt::format("{}: the normal 0,0,0 has no direction; give the side that stays", option));
+}
+
+std::vector<HalfSpace> parseClipPlane(const std::string& text) {
+    const auto n = parseNumbers<6>("--clip-plane", text, "px,py,pz,nx,ny,nz");
+    checkNormal("--clip-plane", {n[3], n[4], n[5]});
+    return {{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}}};
+}
+
+std::vector<HalfSpace> parseClipBox(const std::string& text) {
+    const auto n = parseNumbers<6>("--clip-box", text, "x0,x1,y0,y1,z0,z1");
+    for (std::size_t axis = 0; axis < 6; axis += 2)
+        if (!(n[axis] < n[axis + 1]))
+            throw std::runtime_error(
+                fmt::format("--clip-box: {} is not below {}; give x0,x1,y0,y1,z0,z1 with each first "
+                            "number below the second",
+                            n[axis], n[axis + 1]));
+    return projection::boxHalfSpaces({n[0], n[2], n[4]}, {n[1], n[3], n[5]});
+}
+
+std::vector<HalfSpace> parseSlab(const std::string& text) {
+    const auto n = parseNumbers<7>("--slab", text, "px,py,pz,nx,ny,nz,thickness");
+    checkNormal("--slab", {n[3], n[4], n[5]});
+    if (!(n[6] > 0))
+        throw std::runtime_error(fmt::format("--slab: a thickness of {} shows nothing; give a length above 0", n[6]));
+    return projection::slabHalfSpaces({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6]);
+}
+
+template <class Value>
+using Named = std::pair<const char*, Value>;
+
+template <class Value, std::size_t Count>
+Value chosen(const std::string& option, const std::string& text, const std::array<Named<Value>, Count>& choices) {
+    std::string names;
+    for (const auto& [name, value] : choices) {
+        if (text == name) return value;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+    }
+    throw std::runtime_error(fmt::format("{}: there is no '{}'; take one of {}", option, text, names));
+}
+
+constexpr std::array classifications{Named<Classification>{"preintegrated", Classification::Preintegrated},
+                                     Named<Classification>{"post", Classification::Post},
+                                     Named<Classification>{"post-linear", Classification::PostLinear},
+                                     Named<Classification>{"pre", Classification::Pre}};
+constexpr std::array amounts{Named<AdaptiveSettings::Amount>{"cells", AdaptiveSettings::Amount::Cells},
+                             Named<AdaptiveSettings::Amount>{"length", AdaptiveSettings::Amount::Length}};
+constexpr std::array filters{Named<AdaptiveSettings::Filter>{"none", AdaptiveSettings::Filter::None},
+                             Named<AdaptiveSettings::Filter>{"gaussian", AdaptiveSettings::Filter::Gaussian},
+                             Named<AdaptiveSettings::Filter>{"2x", AdaptiveSettings::Filter::Bilinear2},
+                             Named<AdaptiveSettings::Filter>{"4x", AdaptiveSettings::Filter::Bilinear4}};
+
+using ParseClip = std::vector<HalfSpace> (*)(const std::string&);
+
+void addClip(CLI::App& command, const char* name, const char* form, ParseClip parse, ShapeOptions& options,
+             const char* help) {
+    command
+        .add_option_function<std::vector<std::string>>(
+            name,
+            [&options, parse](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts)
+                    for (const HalfSpace& half : parse(text)) options.clips.push_back(half);
+            },
+            help)
+        ->type_name(form)
+        ->allow_extra_args(false);
+}
+
+void addAdaptiveOptions(CLI::App& command, ShapeOptions& options) {
+    addParsed(
+        command, "--adaptive", options.adaptive.amount,
+        [&options](const std::string& option, const std::string& text) {
+            options.adaptiveOn = true;
+            return chosen(option, text, amounts);
+        },
+        "opacity of each pixel by how much lies along its ray: relevant cells or length", "cells|length");
+    addNumber<double>(command, "--adaptive-gain", options.adaptive.gain, positive, "a number above 0",
+                      "opacity is so many over the amount, 1");
+    command.add_option_function<double>(
+        "--adaptive-max",
+        [&options](double value) {
+            if (!(value > 0.0) || !std::isfinite(value))
+                throw std::runtime_error(fmt::format("--adaptive-max: {} will not do; give a number above 0", value));
+            options.adaptive.most = value;
+            options.mostGiven = true;
+        },
+        "its bound: per cell, 0.1, or per diagonal of the mesh, 10");
+    addParsed(
+        command, "--adaptive-filter", options.adaptive.filter,
+        [](const std::string& option, const std::string& text) { return chosen(option, text, filters); },
+        "how the amount is smoothed, gaussian", "none|gaussian|2x|4x");
+    addNumber<double>(command, "--adaptive-sigma", options.adaptive.sigma, positive, "pixels, above 0",
+                      "width of the gaussian in pixels, 4");
+    addNumber<double>(
+        command, "--adaptive-threshold", options.adaptive.threshold,
+        [](double value) { return value >= 0.0 && value <= 1.0; }, "a share from 0 to 1",
+        "share of the largest extinction from which on something is relevant, 1/256");
+}
+
+}  // namespace
+
+void addShapeOptions(CLI::App& command, ShapeOptions& options, projection::RenderSettings& settings) {
+    addClip(command, "--clip-plane", "px,py,pz,nx,ny,nz", parseClipPlane, options,
+            "show the side of a plane that the normal points to; may be given several times");
+    addClip(command, "--clip-box", "x0,x1,y0,y1,z0,z1", parseClipBox, options, "show only what lies within a box");
+    addClip(command, "--slab", "px,py,pz,nx,ny,nz,thickness", parseSlab, options,
+            "show only a slab about the point, across the normal");
+    addParsed(
+        command, "--classification", settings.classification,
+        [](const std::string& option, const std::string& text) { return chosen(option, text, classifications); },
+        "what a cell's segment shows: the integral, one sample in its middle (post, post-linear), or what the vertices "
+        "show (pre); for comparison",
+        "preintegrated|post|post-linear|pre");
+    command.add_flag("--silhouette{exact}", options.silhouette,
+                     "thin layers seen edge-on become denser: exact (if nothing is said) or approximate");
+    addNumber<double>(command, "--gradient-opacity", settings.shading.gradientOpacity, positive, "a number above 0",
+                      "extinction times so many times the gradient's magnitude (ranges per diagonal)");
+    addNumber<int>(
+        command, "--isosurfaces", options.isosurfaces, [](double value) { return value >= 1.0 && value <= 1024.0; },
+        "a whole number from 1 to 1024", "so many equidistant isosurfaces instead of extinction");
+    addAdaptiveOptions(command, options);
+}
+
+void finishShapeOptions(const ShapeOptions& options, projection::RenderSettings& settings) {
+    if (!options.silhouette.empty()) {
+        settings.shading.silhouette = true;
+        settings.shading.approximateSilhouette =
+            chosen("--silhouette", options.silhouette,
+                   std::array{Named<bool>{"exact", false}, Named<bool>{"approximate", true}});
+    }
+    const Mode mode = settings.mode;
+    const bool integrates = mode == Mode::Standard || mode == Mode::ScaleInvariant;
+    if (settings.classification != Classification::Preintegrated && !integrates && mode != Mode::FirstHit)
+        throw std::runtime_error(
+            "--classification: only the modes standard, scale-invariant and first-hit classify segments; leave it out");
+    if (settings.classification != Classification::Preintegrated && options.isosurfaces)
+        throw std::runtime_error(
+            "--classification: a sample does not meet isosurfaces; leave --isosurfaces out, or take preintegrated");
+    if (!options.adaptiveOn) return;
+    if (!integrates && mode != Mode::Additive && mode != Mode::Emission && mode != Mode::Absorption)
+        throw std::runtime_error(
+            "--adaptive: this mode has no extinction; take standard, scale-invariant, additive, emission or "
+            "absorption");
+    settings.adaptive = options.adaptive;
+    if (!options.mostGiven && options.adaptive.amount == AdaptiveSettings::Amount::Cells)
+        settings.adaptive->most = mostPerCell;
+}
+
+std::vector<std::string> joinedOptionalValues(int argumentCount, char** arguments) {
+    std::vector<std::string> words;
+    for (int i = 0; i < argumentCount; ++i) {
+        words.emplace_back(arguments[i]);
+        const std::string next = i + 1 < argumentCount ? arguments[i + 1] : "";
+        if (words.back() == "--silhouette" && (next == "exact" || next == "approximate")) {
+            words.back() += "=" + next;
+            ++i;
+        }
+    }
+    return words;
+}
+
+}  // namespace tetralux::apps

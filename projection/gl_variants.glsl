@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the fragment texts are compiled for: TETRALUX_MODE is one of the numbers below, the rest 0 or 1 unless said otherwise.
+//
+//   TETRALUX_ORTHOGRAPHIC, TETRALUX_INTERFACES (how many), TETRALUX_SUPPORTS (how many), TETRALUX_LIGHTS (how many), TETRALUX_SILHOUETTE,
+//   TETRALUX_APPROXIMATE_SILHOUETTE, TETRALUX_GRADIENT_OPACITY, TETRALUX_GRADIENT (whether anything reads the cell's gradient),
+//   TETRALUX_LENGTH (whether anything reads the segment's length)
+//   TETRALUX_FULL_LIGHT       anything but the plain lights of shading/cell_shading.glsl; TETRALUX_ATTRIBUTES: vertices have some
+//   TETRALUX_DATA_SPACE       extinction is integrated over the scalar's variation
+//   TETRALUX_SCALE_INVARIANT  the table is a 2D one of that integral; without it a 3D one is looked up with the path as its length
+//   TETRALUX_SAMPLED          post-classification; TETRALUX_LINEAR_OPACITY its linear form
+//   TETRALUX_LIMITS           the view has pixel maps
+#define TETRALUX_MODE_VOLUME 0
+#define TETRALUX_MODE_MIP 1
+#define TETRALUX_MODE_AVERAGE 2
+#define TETRALUX_MODE_FIRST_HIT 3
+#define TETRALUX_MODE_MINIMUM 4
+#define TETRALUX_MODE_ADDITIVE 5
+#define TETRALUX_MODE_ABSORPTION 6
+#define TETRALUX_MODE_DEPTH 7
+#define TETRALUX_MODE_CONTRIBUTION 8
+
+#if TETRALUX_LIMITS
+float interfaceScale = 1.0;  // of the pixel: factor of extinction
+#else
+const float interfaceScale = 1.0;
+#endif
+#define TETRALUX_INTERFACE_SCALE interfaceScale

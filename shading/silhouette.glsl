@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The other ways from the optical depth of a cell segment to its opacity. One text for GLSL and C++; see preint/glsl_prelude.h.
+
+// Kraus, "Scale-Invariant Volume Rendering", IEEE Visualization 2005, Equation 16: α′ = min(1, α·k). `opacity` = α = 1 − exp(−depth),
+// `enhanced` = k·depth in the form that stays finite (silhouetteDepth), so that α·k = α/depth·enhanced has no division by a small cosine.
+TETRALUX_GLSL_FUNCTION real approximateSilhouetteOpacity(real opacity, real depth, real enhanced) {
+    real perDepth = select(depth > real(1e-6), opacity / max(depth, real(1e-6)), real(1.0));  // (1 − exp(−D))/D
+    return min(perDepth * enhanced, real(1.0));
+}
+
+// Equation 11: the linear form of post-classification.
+TETRALUX_GLSL_FUNCTION real linearOpacity(real depth) { return min(depth, real(1.0)); }

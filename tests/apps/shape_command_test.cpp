@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// tetralux render: limits, modes, classification, silhouettes, isosurfaces, adaptive opacity.
+#include <projection/image.h>
+
+#include <cmath>
+
+#include "command_line_test.h"
+
+namespace tetralux::tests {
+namespace {
+
+using ShapeCommand = CommandLine;
+using projection::Image;
+using projection::readImage;
+
+TEST_F(ShapeCommand, ClipPlanesKeepTheSideOfTheirNormal) {
+    write("corner.vtu", vtuText(cornerTetrahedron(5)));
+    const auto alphaOf = [&](const std::string& options) {
+        expectGood("render corner.vtu -o a.exr --tf constant.json" + options + lineView);
+        return static_cast<double>(readImage(path("a.exr")).at(0, 0).w);
+    };
+    const auto ofLength = [](double length) { return -std::expm1(-0.7 * length); };
+    EXPECT_NEAR(alphaOf(" --clip-plane 0,0,0.25,0,0,1"), ofLength(0.75), 1e-6);
+    EXPECT_NEAR(alphaOf(" --clip-plane 0,0,0.25,0,0,-1"), ofLength(0.25), 1e-6);
+    EXPECT_NEAR(alphaOf(" --clip-plane 0,0,0.25,0,0,1 --clip-plane 0,0,0.5,0,0,-1"), ofLength(0.25), 1e-6);
+    EXPECT_NEAR(alphaOf(" --clip-box 0,2,0,2,0.1,0.4"), ofLength(0.3), 1e-6);
+    EXPECT_NEAR(alphaOf(" --clip-box 2,3,0,2,0.1,0.4"), 0.0, 1e-6);
+    EXPECT_NEAR(alphaOf(" --slab 0,0,0.5,0,0,3,0.2"), ofLength(0.2), 1e-6);
+}
+
+TEST_F(ShapeCommand, ModesByTheirNames) {
+    write("corner.vtu", vtuText(cornerTetrahedron(5)));
+    const auto pixelOf = [&](const std::string& options) {
+        expectGood("render corner.vtu -o a.exr --tf constant.json" + options + lineView);
+        return readImage(path("a.exr")).at(0, 0);
+    };
+    EXPECT_NEAR(pixelOf(" --mode additive").y, 0.35, 1e-6);
+    EXPECT_NEAR(pixelOf(" --mode additive").w, 0.7, 1e-6);
+    EXPECT_NEAR(pixelOf(" --mode emission").y, 0.35, 1e-6);
+    EXPECT_EQ(pixelOf(" --mode emission").w, 0.0f);
+    EXPECT_NEAR(pixelOf(" --mode minimum").y, 0.5, 1e-6);
+    EXPECT_EQ(pixelOf(" --mode depth").w, 1.0f);
+    // a radiograph stands before white unless something else is asked for
+    EXPECT_NEAR(pixelOf(" --mode absorption").x, std::exp(-0.7), 1e-6);
+    EXPECT_NEAR(pixelOf(" --mode absorption --background none").w, -std::expm1(-0.7), 1e-6);
+    EXPECT_EQ(pixelOf(" --mode absorption --background none").x, 0.0f);
+    EXPECT_NEAR(pixelOf(" --classification post-linear").w, 0.7, 1e-6);
+    EXPECT_NEAR(pixelOf(" --classification pre").w, -std::expm1(-0.7), 1e-6);
+}
+
+TEST_F(ShapeCommand, SilhouetteNeedsNoValue) {
+    const std::string render = "render bucky:5 --size 12x12 --mode scale-invariant --engine reference -o ";
+    const auto differ = [&](const std::string& a, const std::string& b) {
+        return projection::compareImages(readImage(path(a)), readImage(path(b))).max;
+    };
+    expectGood(render + "plain.exr");
+    expectGood(render + "bare.exr --silhouette");
+    expectGood("render --silhouette bucky:5 --size 12x12 --mode scale-invariant --engine reference -o first.exr");
+    expectGood(render + "exact.exr --silhouette exact");
+    expectGood(render + "approximate.exr --silhouette approximate");
+    EXPECT_EQ(differ("bare.exr", "exact.exr"), 0.0);
+    EXPECT_EQ(differ("bare.exr", "first.exr"), 0.0);
+    EXPECT_GT(differ("bare.exr", "plain.exr"), 1e-3);
+    EXPECT_GT(differ("bare.exr", "approximate.exr"), 1e-3);
+    expectRefused(render + "a.exr --silhouette=thick", {"--silhouette", "thick", "exact, approximate"});
+}
+
+TEST_F(ShapeCommand, PicturesWithMapsAreVerified) {
+    for (const std::string options : {"--clip-plane 0.5,0.5,0.5,1,0.2,0.3", "--adaptive length", "--adaptive cells"}) {
+        expectGood("render bucky:6 --size 24x24 -o a.png --verify 200 --report r.json --quiet " + options);
+        EXPECT_LT(json("r.json")["verification"]["rmse"].get<double>(), 1e-3) << options;
+    }
+    expectGood("render bucky:6 --size 12x12 -o a.png --isosurfaces 12 --quiet");
+    expectGood("render bucky:6 --size 12x12 -o a.png --gradient-opacity 0.3 --quiet");
+}
+
+TEST_F(ShapeCommand, RefusesWhatCannotBe) {
+    const std::string render = "render bucky:4 -o a.png ";
+    expectRefused(render + "--clip-plane 0,0,0,1,0", {"--clip-plane", "px,py,pz,nx,ny,nz"});
+    expectRefused(render + "--clip-plane 0,0,0,0,0,0", {"--clip-plane", "no direction"});
+    expectRefused(render + "--clip-box 0,1,0,1,2,1", {"--clip-box", "not below"});
+    expectRefused(render + "--slab 0,0,0,0,0,1,-2", {"--slab", "thickness"});
+    expectRefused(render + "--classification middle", {"--classification", "preintegrated, post"});
+    expectRefused(render + "--classification post --mode mip", {"--classification", "first-hit"});
+    expectRefused(render + "--isosurfaces 0", {"--isosurfaces", "1024"});
+    expectRefused(render + "--adaptive voxels", {"--adaptive", "cells, length"});
+    expectRefused(render + "--adaptive cells --mode mip", {"--adaptive", "additive"});
+    expectRefused(render + "--gradient-opacity -1", {"--gradient-opacity"});
+}
+
+}  // namespace
+}  // namespace tetralux::tests

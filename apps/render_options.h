@@ -39,9 +39,9 @@ struct RenderOptions {
     double fovDegrees = 30.0;
     double orthographicHeight = 0.0;  ///< mesh units; 0: perspective
 
-    std::string output;                ///< .png or .exr
-    std::optional<int> frames;         ///< an orbit of so many images
-    double previewMilliseconds = 0.0;  ///< > 0: a quick picture in this time comes first
+    std::string output;                                  ///< .png or .exr
+    std::optional<int> frames;                           ///< an orbit of so many images
+    double previewMilliseconds = 0.0;                    ///< > 0: a quick picture in this time comes first
     std::optional<std::optional<glm::vec3>> background;  ///< not given: what suits the mode
     int verifiedPixels = 0;          ///< so many pixels of each frame are computed again by the reference
     std::optional<double> maxError;  ///< largest rmse that may be found so, its 95 % bound that is

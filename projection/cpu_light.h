@@ -123,7 +123,7 @@ HWY_INLINE vec3 arriving(const FrameLight& light, vec3 place, vec3 view, vec3& t
 
 /// Colour per α in the light. `place`: the segments' middles, (right, down, forward) from the eye, scene lengths.
 inline HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& batch, std::size_t j,
-                              const SegmentMiddles& middles, vec3 place, const SegmentToLight& segment) {
+                                     const SegmentMiddles& middles, vec3 place, const SegmentToLight& segment) {
     const LightModel model = broadcastModel(frame.lightModel);
     const shading::VertexLight& kept = *frame.vertexLight;
     const vec3 ambient = broadcast(frame.lightModel.ambient);

@@ -21,8 +21,6 @@ struct OpaqueOptions {
     std::vector<std::string> surfaces;      ///< files
     std::vector<glm::dvec3> surfaceColors;  ///< none, one for all, or one for each
     bool flat = false;                      ///< surfaces without light
-
-    bool empty() const { return slices.empty() && surfaces.empty(); }
 };
 
 void addOpaqueOptions(CLI::App& command, OpaqueOptions& options);

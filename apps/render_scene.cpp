@@ -145,6 +145,7 @@ SceneRenderer::SceneRenderer(const RenderOptions& options)
 
 void SceneRenderer::readScene(const RenderOptions& options) {
     const preint::TransferFunction transferFunction = loadTransferFunction(options.transferFunction);
+    const projection::OpaqueObjects opaque = readOpaqueObjects(options.opaque);
     const Stopwatch watch;
     mesh::ReadResult source = mesh::readMesh(options.source, options.read);
     record_.mesh = std::move(source.report);
@@ -173,11 +174,10 @@ void SceneRenderer::readScene(const RenderOptions& options) {
                   scene_.transferFunction,
                   scene_.mesh->bounds,
                   glm::dvec3(background_.value_or(glm::vec3(0)))};
-    if (!options.opaque.empty())
-        scene_.mapSources.push_back(
-            std::make_shared<const projection::OpaqueLayer>(scene_, readOpaqueObjects(options.opaque)));
+    // limits come first: they leave out parts of slices
     if (!options.shape.clips.empty())
         scene_.mapSources.push_back(std::make_shared<projection::ClipRegion>(options.shape.clips));
+    if (!opaque.empty()) scene_.mapSources.push_back(std::make_shared<const projection::OpaqueLayer>(scene_, opaque));
 }
 
 /// Keeps what was found in the frame that may be farthest from the truth.

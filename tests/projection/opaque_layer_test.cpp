@@ -83,7 +83,7 @@ int holdToClosedForm(const Scene& scene, const Camera& camera, const Trace& trac
     for (int y = 0; y < camera.height; ++y)
         for (int x = 0; x < camera.width; ++x) seen.push_back(trace(pixelRay(frame, x, y)));
     int compared = 0;
-    for (const std::string name : {"reference"}) {
+    for (const std::string& name : engineNames()) {
         compared = 0;
         FrameReport report;
         EngineOptions options;

@@ -19,8 +19,8 @@ std::vector<HalfSpace> boxHalfSpaces(const glm::dvec3& low, const glm::dvec3& hi
 /// The two half-spaces between parallel planes through `point`, `thickness` apart, `point` in the middle.
 std::vector<HalfSpace> slabHalfSpaces(const glm::dvec3& point, const glm::dvec3& normal, double thickness);
 
-/// Shows the volume only within all of its half-spaces: a convex region, of which a ray meets one interval. What is
-/// opaque (slices, surfaces) is not clipped.
+/// Shows the volume only within all of its half-spaces: a convex region, of which a ray meets one interval. Slices
+/// behind it among the scene's sources are clipped too, surfaces are not.
 class ClipRegion final : public PixelMapSource {
 public:
     /// \throws std::runtime_error for a normal without direction or numbers that are not finite.

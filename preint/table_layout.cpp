@@ -133,6 +133,20 @@ std::vector<int> texelsOf(const std::vector<double>& scalars, int size) {
     return texel;
 }
 
+/// Those of `kinks` that lie apart from each other and from the zone's ends by more than a float holds: between closer
+/// ones the warp would rise so steeply that its sum of ramps cancels.
+std::vector<double> resolvedKinks(const std::vector<double>& kinks, const glm::dvec2& zone) {
+    const double narrowest = 1e-6 * (zone.y - zone.x);
+    std::vector<double> resolved;
+    double last = zone.x;
+    for (const double kink : kinks) {
+        if (kink - last <= narrowest || zone.y - kink <= narrowest) continue;
+        resolved.push_back(kink);
+        last = kink;
+    }
+    return resolved;
+}
+
 }  // namespace
 
 ZoneKinks layOutTable(const ExactIntegral& exact, double scalarMin, double scalarMax, KinkCuts cuts,
@@ -200,8 +214,9 @@ void placeTexels(const ZoneKinks& kinks, PreintegrationTable& table) {
         const glm::dvec2& zone = table.zones[z];
         double* scalarOf = &table.texelScalars[z * table.size];
         std::vector<double> ends{zone.x};
-        if (kinks[z].size() + 2 <= static_cast<std::size_t>(table.size) / 4)
-            ends.insert(ends.end(), kinks[z].begin(), kinks[z].end());
+        if (kinks[z].size() + 2 <= static_cast<std::size_t>(table.size) / 4) {
+            for (const double kink : resolvedKinks(kinks[z], zone)) ends.push_back(kink);
+        }
         ends.push_back(zone.y);
         table.warped = table.warped || ends.size() > 2;
         if (zone.x == zone.y) {  // a field of one value

@@ -119,13 +119,9 @@ constexpr double coincidence = 1e-9;
 /// Boundary faces by rows of pixels, and what the rays of a row meet.
 class ReentryScan {
 public:
-    ReentryScan(const mesh::ScalarMesh& mesh, const std::vector<BoundaryFace>& boundary, const CameraFrame& frame)
-        : mesh_(mesh), boundary_(boundary), frame_(frame), points_(mesh.positions.size()) {
-        const double pixel = glm::length(frame.perPixelRight);
-        tbb::parallel_for(std::size_t{0}, points_.size(), [&](std::size_t i) {
-            const glm::dvec3 p = mesh.positions[i] - frame.eye;
-            points_[i] = {glm::dot(p, frame.right) / pixel, -glm::dot(p, frame.up) / pixel, glm::dot(p, frame.forward)};
-        });
+    ReentryScan(const mesh::ScalarMesh& mesh, const std::vector<BoundaryFace>& boundary, const CameraFrame& frame,
+                std::span<const CameraPoint> points)
+        : mesh_(mesh), boundary_(boundary), frame_(frame), points_(points) {
         binFaces();
     }
 
@@ -154,7 +150,7 @@ private:
         glm::dvec2 low(1e300), high(-1e300);
         bool front = false, behind = false;
         for (mesh::PointIndex p : facePoints(mesh_, face)) {
-            const glm::dvec3& v = points_[p];
+            const CameraPoint& v = points_[p];
             (v.z > 0 ? front : behind) = true;
             const glm::dvec2 at = frame_.orthographic ? glm::dvec2(v.x, v.y) : glm::dvec2(v.x / v.z, v.y / v.z);
             low = glm::min(low, at);
@@ -162,8 +158,8 @@ private:
         }
         if (!front) return {0, 0, 0, 0};
         if (behind && !frame_.orthographic) return {0, 0, frame_.width, frame_.height};
-        low += frame_.centre - frame_.sampleShift;
-        high += frame_.centre - frame_.sampleShift;
+        low += sampleCentre(frame_);
+        high += sampleCentre(frame_);
         auto inside = [](double v, int limit) {
             return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(limit)));
         };
@@ -226,7 +222,7 @@ private:
 
     EdgeForm sideOf(mesh::PointIndex from, mesh::PointIndex to) const {
         const bool ascending = from < to;
-        glm::dvec3 a = points_[ascending ? from : to], b = points_[ascending ? to : from];
+        glm::dvec3 a = points_[ascending ? from : to].position(), b = points_[ascending ? to : from].position();
         if (frame_.orthographic) a.z = b.z = 1.0;
         EdgeForm form;
         form.origin = a.z > 0 ? glm::round(glm::dvec2(a) / a.z) : glm::dvec2(0);
@@ -242,7 +238,7 @@ private:
         const auto p = facePoints(mesh_, face);
         const std::array side{sideOf(p[1], p[2]), sideOf(p[2], p[0]), sideOf(p[0], p[1])};
         const glm::dvec3 depths(points_[p[0]].z, points_[p[1]].z, points_[p[2]].z);
-        const glm::dvec2 shift = frame_.sampleShift - frame_.centre;
+        const glm::dvec2 shift = -sampleCentre(frame_);
         for (int y = std::max(rect.y0, y0); y < std::min(rect.y1, y1); ++y)
             for (int x = rect.x0; x < rect.x1; ++x) {
                 const glm::dvec2 at(x + shift.x, y + shift.y);
@@ -264,7 +260,7 @@ private:
     int settledSides(const std::array<mesh::PointIndex, 3>& p, const glm::dvec2& at, const glm::dvec3& w) const {
         std::array<glm::dvec2, 3> q;
         for (std::size_t k = 0; k < 3; ++k)
-            q[k] = glm::dvec2(points_[p[k]]) - at * (frame_.orthographic ? 1.0 : points_[p[k]].z);
+            q[k] = glm::dvec2(points_[p[k]].position()) - at * (frame_.orthographic ? 1.0 : points_[p[k]].z);
         int positive = 0;
         for (int k = 0; k < 3; ++k) {
             const auto a = static_cast<std::size_t>((k + 1) % 3), b = static_cast<std::size_t>((k + 2) % 3);
@@ -300,14 +296,15 @@ private:
     const mesh::ScalarMesh& mesh_;
     const std::vector<BoundaryFace>& boundary_;
     const CameraFrame& frame_;
-    std::vector<glm::dvec3> points_;
+    std::span<const CameraPoint> points_;
     std::vector<std::vector<std::pair<std::uint32_t, PixelRect>>> bands_;
 };
 
 }  // namespace
 
-Reentry findReentry(const mesh::ScalarMesh& mesh, const std::vector<BoundaryFace>& boundary, const CameraFrame& frame) {
-    return ReentryScan(mesh, boundary, frame).run();
+Reentry findReentry(const mesh::ScalarMesh& mesh, const std::vector<BoundaryFace>& boundary, const CameraFrame& frame,
+                    std::span<const CameraPoint> points) {
+    return ReentryScan(mesh, boundary, frame, points).run();
 }
 
 }  // namespace tetralux::projection

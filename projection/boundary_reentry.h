@@ -6,12 +6,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <mesh/adjacency.h>
 #include <mesh/tet_mesh.h>
-#include <projection/camera.h>
+#include <projection/camera_points.h>
 
 namespace tetralux::projection {
 
@@ -34,6 +35,8 @@ struct Reentry {
     std::vector<std::uint32_t> doubtfulPixels;
 };
 
-Reentry findReentry(const mesh::ScalarMesh& mesh, const std::vector<BoundaryFace>& boundary, const CameraFrame& frame);
+/// `points`: the mesh's, before this frame's camera.
+Reentry findReentry(const mesh::ScalarMesh& mesh, const std::vector<BoundaryFace>& boundary, const CameraFrame& frame,
+                    std::span<const CameraPoint> points);
 
 }  // namespace tetralux::projection

@@ -7,28 +7,18 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <mesh/tet_mesh.h>
-#include <preint/transfer_function.h>
 #include <projection/camera.h>
-#include <projection/scene.h>
+#include <projection/camera_points.h>
+#include <projection/scene_units.h>
 
 namespace tetralux::projection {
-
-/// Units in which fast engines compute, so that float holds meshes and scalars of any magnitude: scalars become
-/// (s − scalarOffset)/scalarScale in [0, 1], lengths are divided by `length` (the mesh's diagonal).
-struct SceneUnits {
-    double scalarOffset = 0.0, scalarScale = 1.0, length = 1.0;
-    double toUnit(double scalar) const { return (scalar - scalarOffset) / scalarScale; }
-};
-SceneUnits sceneUnits(const mesh::ScalarMesh& mesh);
-
-/// The transfer function in scene units: extinction per scene length (standard) or per unit scalar (scale-invariant).
-preint::TransferFunction inSceneUnits(const preint::TransferFunction& function, const SceneUnits& units,
-                                      preint::Integral integral);
 
 /// One projected cell. Std430 layout of six vec4; the shader's struct mirrors it. The reference point c is the
 /// centroid, or for cells that reach behind the eye a point of the visible rectangle at half their largest depth.
@@ -65,13 +55,27 @@ struct PixelRect {
 enum class SkipReason { None, OutsideView, NoPixelCentre, Invisible };
 const char* skipReasonName(SkipReason reason);
 
+/// The pixels whose samples a cell with these corners may cover (conservative by rounding only); OutsideView or
+/// NoPixelCentre when there are none. A cell that reaches behind the eye's plane covers the rectangle of its part in
+/// front.
+SkipReason coveredPixels(const std::array<glm::dvec3, 4>& corners, const CameraFrame& frame, PixelRect& rect);
+
 /// Projects cells for one camera.
 class CellProjector {
 public:
     CellProjector(const mesh::ScalarMesh& mesh, const SceneUnits& units, const CameraFrame& frame);
 
-    /// The pixels whose centres the cell may cover (conservative by rounding only); OutsideView or NoPixelCentre
-    /// when there are none. A cell that reaches behind the eye's plane covers the rectangle of its part in front.
+    /// With points that projectPoints made for this frame; they stay the caller's.
+    CellProjector(const mesh::ScalarMesh& mesh, const SceneUnits& units, const CameraFrame& frame,
+                  std::span<const CameraPoint> points);
+
+    CellProjector(const CellProjector&) = delete;
+    CellProjector& operator=(const CellProjector&) = delete;
+
+    const CameraFrame& frame() const { return frame_; }
+    std::span<const CameraPoint> points() const { return points_; }
+
+    /// coveredPixels of a cell.
     SkipReason bounds(mesh::CellIndex cell, PixelRect& rect) const;
 
     /// The record of a cell that `bounds` does not skip, given the rectangle from there.
@@ -82,11 +86,11 @@ public:
 
     /// On which side of a face's plane the eye is: positive on the inner one, 0 within the plane (orthographic: the
     /// face's extent along the view). Both cells of a face get the same number with opposite signs.
-    double eyeSide(mesh::CellIndex cell, int face) const { return eyeSide(mesh_.cells[cell], face); }
+    double eyeSide(mesh::CellIndex cell, int face) const;
 
     /// True when a face of the cell shows its outside to the eye (perspective: eye on the outer side of its plane).
     /// Both cells of a face give opposite answers.
-    bool faceIsFront(mesh::CellIndex cell, int face) const;
+    bool faceIsFront(mesh::CellIndex cell, int face) const { return eyeSide(cell, face) < 0; }
 
     /// Barycentric coordinates λ_k of the eye in the cell (orthographic: rates of λ_k towards the eye, per mesh
     /// length): what PowerOrder's keys weight the heights by.
@@ -95,17 +99,17 @@ public:
     CellGradient gradient(mesh::CellIndex cell) const;
 
 private:
-    struct LinearForms;  // barycentric coordinates as functions of camera space
-    LinearForms linearForms(mesh::CellIndex cell) const;
-    double eyeSide(const mesh::Tetrahedron& cell, int face) const;
-    glm::dvec2 pixelOf(const glm::dvec3& point) const;
+    template <bool Orthographic>
+    CellRecord recordIn(mesh::CellIndex cell, const PixelRect& rect) const;
+    template <bool Orthographic>
+    std::array<double, 4> eyeCoordinatesIn(mesh::CellIndex cell) const;
+    std::array<glm::dvec3, 4> cornersOf(mesh::CellIndex cell) const;
 
     const mesh::ScalarMesh& mesh_;
     SceneUnits units_;
     CameraFrame frame_;
-    /// Per mesh point, relative to the eye: x and y in pixels times depth (pixels when orthographic), z the depth. The
-    /// ray of pixel (x, y) is z·(x − centre.x, y − centre.y, 1), or (x − centre.x, y − centre.y, z).
-    std::vector<glm::dvec3> cameraPoints_;
+    std::vector<CameraPoint> ownPoints_;
+    std::span<const CameraPoint> points_;
 };
 
 }  // namespace tetralux::projection

@@ -4,7 +4,6 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(Highway REQUIRED IMPORTED_TARGET libhwy)
 target_sources(tetralux_projection PRIVATE
   cpu_bins.cpp
-  cpu_cull.cpp
   cpu_cull_kernel.cpp
   cpu_engine.cpp
   cpu_limited_kernel.cpp

@@ -23,7 +23,7 @@ namespace tetralux::projection::HWY_NAMESPACE {
 
 #undef TETRALUX_CELL_FUNCTION
 #define TETRALUX_CELL_FUNCTION HWY_INLINE
-#include <projection/cpu_projected_cell.inl>
+#include <projection/projected_cell.inl>
 
 /// Point numbers of the batch's cells in ascending order, and whether that order turns the cell inside out.
 struct SortedCorners {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// First stages of a frame: points before the camera, the cells that can be seen, their tiles and their place in the
-/// order.
+/// Second stage of a frame: the cells that can be seen, their tiles and their place in the order.
 #pragma once
 
 #include <array>
@@ -40,10 +39,6 @@ struct KeySource {
         return places ? -static_cast<double>(places[cell]) : 0.0;
     }
 };
-
-/// Points of the mesh before a camera. `points` keeps its memory.
-void projectPoints(const mesh::ScalarMesh& mesh, const SceneUnits& units, const CameraFrame& frame,
-                   std::vector<CpuPoint>& points);
 
 /// What cullCells reads and where it writes.
 struct CullTask {

@@ -45,7 +45,7 @@ HWY_INLINE GroupBits rectanglesOf(const TileFrame& frame, hn::Vec<IntTag> cells,
     const IntTag ints;
     const auto* corners = reinterpret_cast<const std::int32_t*>(frame.cells);
     const auto* pixels = reinterpret_cast<const float*>(frame.points);
-    constexpr int xAt = 6, yAt = 7;  // in floats of CpuPoint
+    constexpr int xAt = 6, yAt = 7;  // in floats of CameraPoint
     const auto row = hn::ShiftLeft<2>(cells);
     hn::Vec<FloatTag> lowX, highX, lowY, highY, sum;
     for (int k = 0; k < 4; ++k) {
@@ -119,10 +119,10 @@ private:
 
     /// Cells that reach behind the eye: their rectangle is that of the part in front.
     bool meetsFrontHalf(mesh::CellIndex cell, bool atEye, std::size_t j) {
-        std::array<CpuPoint, 4> corners;
+        std::array<CameraPoint, 4> corners;
         for (std::size_t k = 0; k < 4; ++k) corners[k] = frame_.points[frame_.cells[cell][k]];
         if (!atEye) {
-            if (std::any_of(corners.begin(), corners.end(), [](const CpuPoint& p) { return p.z > 0; })) return true;
+            if (std::any_of(corners.begin(), corners.end(), [](const CameraPoint& p) { return p.z > 0; })) return true;
         } else {
             PixelRect rect;
             if (rectangleAtEye(frame_, corners, rect)) {

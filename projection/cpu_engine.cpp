@@ -88,7 +88,7 @@ private:
     TileKind kind() const;
     bool ordered() const { return !orderFree(scene_.settings.mode) && frame_.kind != TileKind::Absorption; }
     void makeLists(const Camera& camera, FrameReport& report);
-    void setFrame(const CameraFrame& frame);
+    void setFrame();
     CullCounts cull();
     void setLimits(const View& view);
     void draw(Image& image, FrameReport& report);
@@ -112,7 +112,8 @@ private:
 
     // of the last camera
     std::optional<Camera> keptCamera_;
-    std::vector<CpuPoint> points_;
+    CameraFrame cameraFrame_;
+    std::vector<CameraPoint> points_;
     TileFrame frame_{};
     TileLimits limits_;
     bool limited_ = false;  // this frame takes drawLimitedTile
@@ -175,14 +176,14 @@ void CpuEngine::prepare() {
     frame_.lightInFull = shading.lit() && !shading.plain();
     frame_.lightModel = lightModelFloats(shading);
     frame_.vertexLight = vertexLight_.get();
-    frame_.earlyTermination = skips_.earlyTermination;
+    frame_.earlyTermination = skips_.earlyTermination && scene_.settings.earlyTermination;
     frame_.ordered = ordered();
     frame_.classification = scene_.settings.classification;
     frame_.constantColor = scene_.settings.mode == Mode::Absorption ? glm::vec3(0) : glm::vec3(transfer_.color());
     frame_.emissionOnly = scene_.settings.mode == Mode::Emission;
     const bool everyScalarCounts =
         frame_.kind == TileKind::Mip || frame_.kind == TileKind::Minimum || frame_.kind == TileKind::Average;
-    if (skips_.invisibleCells && !everyScalarCounts) findVisibleCells();
+    if (skips_.invisibleCells && scene_.settings.skipInvisible && !everyScalarCounts) findVisibleCells();
     prepareMilliseconds_["cells"] = millisecondsSince(start);
     if (!frame_.ordered || !skips_.sort) return;
     const auto orderStart = Clock::now();
@@ -212,12 +213,14 @@ void CpuEngine::findVisibleCells() {
         if (shows[i]) visible_.push_back(static_cast<mesh::CellIndex>(i));
 }
 
-void CpuEngine::setFrame(const CameraFrame& frame) {
+void CpuEngine::setFrame() {
+    const CameraFrame& frame = cameraFrame_;
+    frame_.camera = &frame;
     frame_.points = points_.data();
     frame_.orthographic = frame.orthographic;
     frame_.width = frame.width;
     frame_.height = frame.height;
-    frame_.centre = frame.centre - frame.sampleShift;
+    frame_.centre = sampleCentre(frame);
     frame_.pixel = glm::length(frame.perPixelRight) / (frame.orthographic ? units_.length : 1.0);
     frame_.depthReference = depthReferenceOf(mesh_.bounds, frame, units_);
     frame_.orderTolerance = static_cast<float>(orderRounding / (frame.orthographic ? 1.0 : frame_.depthReference));
@@ -255,16 +258,17 @@ void CpuEngine::makeLists(const Camera& camera, FrameReport& report) {
         stages[stage] += millisecondsSince(start);
         start = Clock::now();
     };
-    const CameraFrame frame = sampledFrame(camera, edgeOnPlanes_);
+    cameraFrame_ = sampledFrame(camera, edgeOnPlanes_);
+    const CameraFrame& frame = cameraFrame_;
     projectPoints(mesh_, units_, frame, points_);
-    setFrame(frame);
+    setFrame();
     finish("project");
 
     tilesX_ = (frame.width + cpuTileSize - 1) / cpuTileSize;
     tilesY_ = (frame.height + cpuTileSize - 1) / cpuTileSize;
     order_ = {};
     if (orderKeys_) {
-        order_ = orderKeys_->orderOf(frame);
+        order_ = orderKeys_->orderOf(CellProjector(mesh_, units_, frame, points_));
         finish("sort");
     }
     const CullCounts counts = cull();

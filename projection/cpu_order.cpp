@@ -8,16 +8,16 @@ namespace tetralux::projection {
 CpuOrder::CpuOrder(const mesh::ScalarMesh& mesh, OrderMethod method)
     : sorter_(mesh, method, VisibilitySorter::Use::Keys) {}
 
-CpuFrameOrder CpuOrder::orderOf(const CameraFrame& frame) {
+CpuFrameOrder CpuOrder::orderOf(const CellProjector& projector) {
     CpuFrameOrder order;
     order.method = sorter_.method();
     order.failingFaces = sorter_.failingFaces();
     if (!sorter_.keys().empty()) {
         order.keys.planes = sorter_.keys().planes().data();
-        order.keys.eye = sorter_.keys().eye(frame);
+        order.keys.eye = sorter_.keys().eye(projector.frame());
         return order;
     }
-    const VisibilityOrder& sorted = sorter_.sort(frame);
+    const VisibilityOrder& sorted = sorter_.sort(projector);
     order.upkeep = sorted.upkeep;
     order.cyclicCells = sorted.cyclicCells;
     order.doubtfulPixels = sorted.doubtfulPixels;

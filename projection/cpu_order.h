@@ -27,7 +27,7 @@ class CpuOrder {
 public:
     CpuOrder(const mesh::ScalarMesh& mesh, OrderMethod method);
 
-    CpuFrameOrder orderOf(const CameraFrame& frame);
+    CpuFrameOrder orderOf(const CellProjector& projector);
 
 private:
     VisibilitySorter sorter_;

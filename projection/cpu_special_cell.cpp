@@ -2,68 +2,22 @@
 #include <projection/cpu_special_cell.h>
 
 #include <cmath>
-#include <limits>
+
+#include <projection/projected_cell.h>
 
 namespace tetralux::projection {
 
-namespace {
+using namespace single_cell;
 
-// what the formulas call, for doubles
-using std::abs, std::max, std::min;
-[[maybe_unused]] double select(bool condition, double ifTrue, double ifFalse) {
-    return condition ? ifTrue : ifFalse;
-}
-double copySign(double magnitude, double sign) {
-    return std::copysign(magnitude, sign);
-}
-#define TETRALUX_CELL_FUNCTION inline
-#include <projection/cpu_projected_cell.inl>
-
-/// Depths below this share of the cell's largest depth count as behind the eye.
-constexpr double nearestDepthShare = 1e-6;
-
-glm::dvec2 pixelAt(const TileFrame& frame, const glm::dvec3& p) {
-    return frame.centre + glm::dvec2(p.x / p.z, p.y / p.z);
-}
-
-}  // namespace
-
-bool rectangleAtEye(const TileFrame& frame, const std::array<CpuPoint, 4>& corners, PixelRect& rect) {
-    std::array<glm::dvec3, 4> v;
-    double deepest = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-        v[k] = {corners[k].x, corners[k].y, corners[k].z};
-        deepest = std::max(deepest, v[k].z);
-    }
-    if (!(deepest > 0)) return false;
-    const double clip = nearestDepthShare * deepest;
-    glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low.x);
-    auto include = [&](const glm::dvec3& point) {
-        const glm::dvec2 p = pixelAt(frame, point);
-        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    };
-    for (std::size_t k = 0; k < 4; ++k) {
-        if (v[k].z >= clip) {
-            include(v[k]);
-            continue;
-        }
-        for (std::size_t j = 0; j < 4; ++j)  // where the edge from behind comes to the front
-            if (v[j].z > clip) include(v[k] + (clip - v[k].z) / (v[j].z - v[k].z) * (v[j] - v[k]));
-    }
-    auto begin = [](double x, int limit) {
-        return static_cast<int>(std::clamp(std::ceil(x), 0.0, static_cast<double>(limit)));
-    };
-    auto end = [](double x, int limit) {
-        return static_cast<int>(std::clamp(std::floor(x) + 1, 0.0, static_cast<double>(limit)));
-    };
-    rect = {begin(low.x, frame.width), begin(low.y, frame.height), end(high.x, frame.width), end(high.y, frame.height)};
-    return !rect.empty();
+bool rectangleAtEye(const TileFrame& frame, const std::array<CameraPoint, 4>& corners, PixelRect& rect) {
+    std::array<glm::dvec3, 4> points;
+    for (std::size_t k = 0; k < 4; ++k) points[k] = {corners[k].x, corners[k].y, corners[k].z};
+    return coveredPixels(points, *frame.camera, rect) == SkipReason::None;
 }
 
 void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int32_t (&points)[4],
                     mesh::CellIndex cellIndex, bool odd, std::size_t j, CellBatch& batch) {
-    std::array<CpuPoint, 4> corners;
+    std::array<CameraPoint, 4> corners;
     bool behind = false;
     for (std::size_t k = 0; k < 4; ++k) {
         corners[k] = frame.points[static_cast<std::uint32_t>(points[k])];

@@ -38,7 +38,7 @@ inline float pixelPadding(int width, int height) {
     return 2.4e-7f * static_cast<float>(std::max(width, height));
 }
 
-/// Two floats as gathered from CpuPoint.
+/// Two floats as gathered from CameraPoint.
 inline std::uint64_t packedPair(int x, int y) {
     return std::bit_cast<std::uint64_t>(std::array<float, 2>{static_cast<float>(x), static_cast<float>(y)});
 }
@@ -49,6 +49,6 @@ void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int
                     bool odd, std::size_t j, CellBatch& batch);
 
 /// The pixels that the part of a cell in front of the eye may cover; false when there are none.
-bool rectangleAtEye(const TileFrame& frame, const std::array<CpuPoint, 4>& corners, PixelRect& rect);
+bool rectangleAtEye(const TileFrame& frame, const std::array<CameraPoint, 4>& corners, PixelRect& rect);
 
 }  // namespace tetralux::projection

@@ -13,6 +13,7 @@
 
 #include <mesh/tet_mesh.h>
 #include <projection/camera.h>
+#include <projection/camera_points.h>
 #include <projection/cell_setup.h>
 #include <projection/cpu_transfer.h>
 #include <projection/image.h>
@@ -23,15 +24,6 @@ namespace tetralux::projection {
 
 /// Pixels along a tile's side.
 inline constexpr int cpuTileSize = 32;
-
-/// A mesh point before the camera: x and y in pixels times depth (pixels when orthographic), z the depth, lengths in
-/// scene units, the image's sample shift included; and its pixel. A point at or behind the eye's plane has no pixel:
-/// pixelX is NaN.
-struct CpuPoint {
-    double x, y, z;
-    float pixelX, pixelY;
-};
-static_assert(sizeof(CpuPoint) == 32);
 
 /// A cell in a tile's list. Ascending keys are front to back.
 struct TileEntry {
@@ -63,7 +55,8 @@ struct TileLimits {
 
 /// The same for all tiles of one frame.
 struct TileFrame {
-    const CpuPoint* points;
+    const CameraFrame* camera;
+    const CameraPoint* points;
     const mesh::Tetrahedron* cells;
     const float* scalars;  ///< scene units, per point or per cell
     bool cellData;
@@ -73,7 +66,7 @@ struct TileFrame {
     bool ordered;  ///< entries come front to back, so a pixel where they do not is doubtful
     bool orthographic;
     int width, height;
-    glm::dvec2 centre;      ///< pixel coordinates of the optical axis, sample shift taken off
+    glm::dvec2 centre;      ///< sampleCentre of the camera
     double pixel;           ///< size of a pixel at depth 1 (orthographic: in scene lengths)
     double depthReference;  ///< scene lengths: nearness along rays is measured from this depth
     float orderTolerance;   ///< of nearness

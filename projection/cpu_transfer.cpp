@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <projection/transfer_support.h>
+
 namespace tetralux::projection {
 
 namespace {
@@ -92,7 +94,9 @@ CpuTransfer::CpuTransfer(const preint::TransferFunction& function) : function_(f
         while (piece + 1 < pieces_.size() && pieces_[piece].high <= s) ++piece;
         firstPiece_.push_back(piece);
     }
-    findConstantColor();
+    const std::optional<glm::dvec3> only = onlyColor(function_);
+    constantColor_ = only.has_value();
+    color_ = only.value_or(glm::dvec3(0));
 }
 
 void CpuTransfer::addPiece(const preint::TransferFunction& function, double low, double high) {
@@ -124,23 +128,6 @@ void CpuTransfer::addPiece(const preint::TransferFunction& function, double low,
         line([&](double s) { return lineAt(function.color, &preint::ColorNode::color, inside, s)[c]; }, piece.color[c],
              piece.colorSlope[c]);
     pieces_.push_back(piece);
-}
-
-void CpuTransfer::findConstantColor() {
-    constantColor_ = true;
-    bool found = false;
-    auto meet = [&](const float(&color)[3]) {
-        const glm::dvec3 value(color[0], color[1], color[2]);
-        if (found && value != color_) constantColor_ = false;
-        color_ = value;
-        found = true;
-    };
-    for (const auto& piece : pieces_) {
-        if (!piece.visible) continue;
-        meet(piece.color);
-        for (float slope : piece.colorSlope) constantColor_ = constantColor_ && slope == 0;
-    }
-    for (const auto& peak : peaks_) meet(peak.color);
 }
 
 }  // namespace tetralux::projection

@@ -61,7 +61,6 @@ private:
     static constexpr std::size_t lookUpSteps = 1024;
 
     void addPiece(const preint::TransferFunction& function, double low, double high);
-    void findConstantColor();
 
     preint::TransferFunction function_;
     std::vector<TransferPiece> pieces_;

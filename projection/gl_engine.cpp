@@ -122,13 +122,16 @@ public:
                            mode() != Mode::DataContribution && scene.settings.shading.needsGradient();
         if (modeLooksUp(mode())) {
             table_ = buildTable(scene, function_, units_);
-            findVisibleCells();
+            if (scene.settings.skipInvisible)
+                findVisibleCells();
+            else
+                cellShows_.assign(scene.mesh->cells.size(), 1);
             prepare_["table"] = watch.lap();
             const auto& shading = scene.settings.shading;
             fullLight_ = shading.lit() && !shading.plain();
             layout_.attributes = fullLight_ && vertexLight_->any();
             prepare_["light"] = watch.lap();
-            if (!orderFree(mode())) sorter_.emplace(*scene.mesh, scene.settings.order);
+            if (!orderFree(mode()) && orderMatters()) sorter_.emplace(*scene.mesh, scene.settings.order);
             prepare_["adjacency"] = watch.lap();
         } else {
             cellShows_.assign(scene.mesh->cells.size(), 1);
@@ -161,12 +164,18 @@ private:
     };
 
     Mode mode() const { return scene_.settings.mode; }
+    /// Blending cells of one colour is the same in any order; an order that was asked for is made all the same.
+    bool orderMatters() const {
+        const bool blends =
+            (mode() == Mode::Standard || mode() == Mode::ScaleInvariant) && !scene_.settings.shading.needsGradient();
+        return !blends || scene_.settings.order != OrderMethod::Auto || !onlyColor(scene_.transferFunction);
+    }
     void makeState();
     void findVisibleCells();
     const GlCellProgram& program(GlFrameKind kind);
     void setBlending() const;
     void checkScales(const PixelMaps& maps) const;
-    std::vector<mesh::CellIndex> drawingOrder(const CameraFrame& frame, FrameReport& report);
+    std::vector<mesh::CellIndex> drawingOrder(const CellProjector& projector, FrameReport& report);
     std::vector<DrawnCell> selectCells(const CellProjector& projector, const std::vector<mesh::CellIndex>& order,
                                        FrameReport& report) const;
     CellCorners cellCorners(const CellProjector& projector, const CellRecord& record, const CameraFrame& frame,
@@ -246,14 +255,14 @@ void GlEngine::setBlending() const {
 }
 
 // Back to front, or as they come where order does not matter.
-std::vector<mesh::CellIndex> GlEngine::drawingOrder(const CameraFrame& frame, FrameReport& report) {
+std::vector<mesh::CellIndex> GlEngine::drawingOrder(const CellProjector& projector, FrameReport& report) {
     if (!sorter_) {
         report.orderMethod = "none";
         std::vector<mesh::CellIndex> cells(scene_.mesh->cells.size());
         std::iota(cells.begin(), cells.end(), mesh::CellIndex{0});
         return cells;
     }
-    const VisibilityOrder& order = sorter_->sort(frame);
+    const VisibilityOrder& order = sorter_->sort(projector);
     report.wrongUnknown = scene_.settings.order == OrderMethod::Centroid;
     report.orderMethod = order.method;
     report.cellsSorted = order.frontToBack.size();
@@ -330,10 +339,11 @@ Image GlEngine::render(const View& view, FrameReport& report) {
     Stopwatch whole, watch;
     auto& stages = report.stageMilliseconds;
     const CameraFrame frame = sampledFrame(view.camera, edgeOnPlanes_);
-    const std::vector<mesh::CellIndex> order = drawingOrder(frame, report);
-    stages["sort"] = watch.lap();
-
     const CellProjector projector(*scene_.mesh, units_, frame);
+    stages["project"] = watch.lap();
+    const std::vector<mesh::CellIndex> order = drawingOrder(projector, report);
+    const double sorting = watch.lap();
+    if (sorter_) stages["sort"] = sorting;
     const std::vector<DrawnCell> cells = selectCells(projector, order, report);
     stages["setup"] = watch.lap();
 

@@ -31,6 +31,8 @@ struct RenderSettings {
     double largestExtinctionScale = 0.0;  ///< of the pixel maps that views will bring; 0: they bring none
     preint::TableOptions table;
     int threads = 0;  ///< 0: all
+    bool earlyTermination = true;  ///< off to measure what it saves: cells behind opaque pixels are drawn as well
+    bool skipInvisible = true;     ///< off likewise: cells that the transfer function hides are drawn as well
 };
 
 /// What is drawn; engines keep what they derive from it from frame to frame.

@@ -79,6 +79,26 @@ bool anyOpacityCounts(const RenderSettings& settings) {
 
 }  // namespace
 
+std::optional<glm::dvec3> onlyColor(const preint::TransferFunction& function) {
+    constexpr double far = std::numeric_limits<double>::max();
+    std::optional<glm::dvec3> only;
+    bool differs = false;
+    auto meet = [&](const glm::dvec3& color) {
+        differs = differs || (only && *only != color);
+        only = color;
+    };
+    for (const glm::dvec2& interval : extinctionSupport(function)) {
+        meet(function.colorAt(std::max(interval.x, -far)));
+        meet(function.colorAt(std::nextafter(std::min(interval.y, far), -far)));
+        for (const preint::ColorNode& node : function.color)
+            if (node.scalar > interval.x && node.scalar < interval.y) meet(node.color);
+    }
+    for (const preint::Isosurface& surface : function.isosurfaces)
+        if (surface.opacity > 0) meet(surface.color);
+    if (differs) return std::nullopt;
+    return only.value_or(glm::dvec3(0));
+}
+
 CellVisibility::CellVisibility(const mesh::ScalarMesh& mesh, const preint::TransferFunction& function,
                                const RenderSettings& settings)
     : mesh_(mesh),

@@ -3,9 +3,11 @@
 /// Which scalars a transfer function shows.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <preint/exact_integral.h>
 #include <preint/transfer_function.h>
@@ -21,6 +23,10 @@ std::vector<glm::dvec2> extinctionSupport(const preint::TransferFunction& functi
 /// Whether segments with scalars within [low, high] can have opacity.
 bool rangeShows(const preint::TransferFunction& function, const std::vector<glm::dvec2>& support, double low,
                 double high, preint::Integral integral);
+
+/// The colour that all has that can be seen, if there is just one (black when nothing is seen): then the order of cells
+/// does not matter.
+std::optional<glm::dvec3> onlyColor(const preint::TransferFunction& function);
 
 /// Which cells of a mesh show anything at all.
 class CellVisibility {

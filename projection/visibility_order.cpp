@@ -28,7 +28,7 @@ struct VisibilitySorter::State {
     VisibilityOrder last;
     std::optional<CameraFrame> lastFrame;
 
-    void findOrder(const CameraFrame& frame);
+    void findOrder(const CellProjector& projector);
 
     State(const mesh::ScalarMesh& m, OrderMethod wanted, Use use) : mesh(m) {
         if (wanted == OrderMethod::Centroid) {
@@ -178,12 +178,12 @@ bool sameView(const CameraFrame& a, const CameraFrame& b) {
 
 /// The order by keys, by the last frame's order repaired, or by the relations alone: the first that keeps every
 /// relation. Which pixels a cycle leaves in doubt is told by the relations that the order breaks.
-void VisibilitySorter::State::findOrder(const CameraFrame& frame) {
-    const CellProjector projector(mesh, sceneUnits(mesh), frame);
+void VisibilitySorter::State::findOrder(const CellProjector& projector) {
+    const CameraFrame& frame = projector.frame();
     VisibilityRelations relations(adjacency, projector);
     last.doubtfulPixels.clear();
     if (!boundary.empty()) {
-        Reentry reentry = findReentry(mesh, boundary, frame);
+        Reentry reentry = findReentry(mesh, boundary, frame, projector.points());
         last.doubtfulPixels = std::move(reentry.doubtfulPixels);
         relations.setGaps(std::move(reentry.edges));
     }
@@ -209,13 +209,18 @@ void VisibilitySorter::State::findOrder(const CameraFrame& frame) {
 }
 
 const VisibilityOrder& VisibilitySorter::sort(const CameraFrame& frame) {
+    return sort(CellProjector(state_->mesh, sceneUnits(state_->mesh), frame));
+}
+
+const VisibilityOrder& VisibilitySorter::sort(const CellProjector& projector) {
     State& state = *state_;
+    const CameraFrame& frame = projector.frame();
     if (!state.lastFrame || !sameView(*state.lastFrame, frame)) {
         if (state.method == "centroid") {
             state.last.frontToBack = sortedByKeys(state.keys, frame);
             invert(state.last.frontToBack, state.last.places);
         } else {
-            state.findOrder(frame);
+            state.findOrder(projector);
         }
         state.lastFrame = frame;
     } else {

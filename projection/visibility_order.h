@@ -10,7 +10,7 @@
 
 #include <mesh/adjacency.h>
 #include <mesh/tet_mesh.h>
-#include <projection/camera.h>
+#include <projection/cell_setup.h>
 #include <projection/order_keys.h>
 #include <projection/scene.h>
 
@@ -50,6 +50,7 @@ public:
     /// Order of all cells. The last frame's is checked first, face by face and gap by gap, and where few pairs of cells
     /// have changed sides it is repaired rather than made anew. What is returned keeps every relation between cells but
     /// for cycles, and holds until the next call. With Use::Keys only where keys() is empty. One thread at a time.
+    const VisibilityOrder& sort(const CellProjector& projector);
     const VisibilityOrder& sort(const CameraFrame& frame);
 
 private:

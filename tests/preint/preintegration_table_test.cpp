@@ -215,6 +215,18 @@ TEST(PreintegrationTable, ManyStepsFit) {
     EXPECT_LE(table.measuredError, 1e-5);
 }
 
+// A node a rounding away from the end of the range, as normalization makes them: no texels fit between the two.
+TEST(PreintegrationTable, NodesThatAllButMeet) {
+    for (const double gap : {6.7e-24, 1e-15, 1e-8}) {
+        TransferFunction function = samples::smooth();
+        function.extinction.front().scalar = gap;
+        function.color.front().scalar = gap;
+        const ExactIntegral exact(function);
+        EXPECT_LE(buildStandardTable(exact, 0.0, 1.0, 0.06, {}).measuredError, 1e-4) << gap;
+        EXPECT_LE(buildScaleInvariantTable(exact, 0.0, 1.0, {}).measuredError, 1e-4) << gap;
+    }
+}
+
 TEST(PreintegrationTable, RefusesWhatItCannotBuild) {
     const ExactIntegral exact(samples::smooth());
     TableOptions options;

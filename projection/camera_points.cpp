@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <projection/cpu_cull.h>
+#include <projection/camera_points.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
-
-#include <projection/cpu_special_cell.h>
 
 namespace tetralux::projection {
 
@@ -21,17 +19,17 @@ constexpr double farthestPixel = 1e9;
 }  // namespace
 
 void projectPoints(const mesh::ScalarMesh& mesh, const SceneUnits& units, const CameraFrame& frame,
-                   std::vector<CpuPoint>& points) {
+                   std::vector<CameraPoint>& points) {
     points.resize(mesh.positions.size());
     const double perLength = 1.0 / units.length, pixel = glm::length(frame.perPixelRight);
     const glm::dvec3 right = frame.right * (frame.orthographic ? 1.0 / pixel : perLength / pixel),
                      down = -frame.up * (frame.orthographic ? 1.0 / pixel : perLength / pixel),
                      forward = frame.forward * perLength;
-    const glm::dvec2 centre = frame.centre - frame.sampleShift;
+    const glm::dvec2 centre = sampleCentre(frame);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 4096), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             const glm::dvec3 fromEye = mesh.positions[i] - frame.eye;
-            CpuPoint p{glm::dot(fromEye, right), glm::dot(fromEye, down), glm::dot(fromEye, forward), 0, 0};
+            CameraPoint p{glm::dot(fromEye, right), glm::dot(fromEye, down), glm::dot(fromEye, forward), 0, 0};
             const double ratio = frame.orthographic ? 1.0 : 1.0 / p.z;
             if (frame.orthographic || p.z > 0) {
                 p.pixelX = static_cast<float>(std::clamp(centre.x + p.x * ratio, -farthestPixel, farthestPixel));

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CellProjector's derivation (cell_setup.h) for any number type R: double for one cell, SIMD doubles for a batch. Included inside a namespace (no
-// guard): once for doubles, and once per instruction set between Highway's HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE. R needs + - * /, unary -,
-// <, explicit R(double), and abs, min, max, select(condition, R, R), copySign(magnitude, sign). TETRALUX_CELL_FUNCTION stands before each function.
+// The derivation of projected cells (cell_interval.glsl) for any number type R: double for one cell (projected_cell.h), SIMD doubles for a batch.
+// Included inside a namespace (no guard): once for doubles, and once per instruction set between Highway's HWY_BEFORE_NAMESPACE and
+// HWY_AFTER_NAMESPACE. R needs + - * /, unary -, <, explicit R(double), and abs, min, max, select(condition, R, R), copySign(magnitude, sign).
+// TETRALUX_CELL_FUNCTION stands before each function.
 //
 // Corners come in ascending order of their point numbers, so that the two cells of a face compute the same numbers for it without sorting faces.
 
@@ -23,7 +24,7 @@ TETRALUX_CELL_FUNCTION R dot(const Triple<R>& a, const Triple<R>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// Barycentric forms of a cell with corners a, b, c, d: λ_k(p) = (eye[k] + dot(normal[k], p))/determinant in the space of CpuPoint. All carry the
+/// Barycentric forms of a cell with corners a, b, c, d: λ_k(p) = (eye[k] + dot(normal[k], p))/determinant in the space of CameraPoint. All carry the
 /// sign of the corners' orientation. Orthographic: eye[k] is the rate of determinant·λ_k towards the eye.
 template <class R>
 struct CellForms {
@@ -109,7 +110,7 @@ template <class R>
 struct ProjectedCell {
     R plane[4][3];
     R scalar, scalarPerX, scalarPerY, scalarPerRho;
-    Triple<R> gradient;  ///< of the scalar in the space of CpuPoint
+    Triple<R> gradient;  ///< of the scalar in the space of CameraPoint
 };
 
 /// Bounds of plane coefficients, so that what is computed from them in float stays finite.

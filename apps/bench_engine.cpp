@@ -12,11 +12,13 @@
 #include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/global_control.h>
 
 #include <apps/bench_memory.h>
 #include <apps/bench_scene.h>
 #include <apps/bench_statistics.h>
+#include <apps/option_values.h>
 #include <apps/stopwatch.h>
 
 namespace tetralux::apps {
@@ -58,6 +60,8 @@ void describeFirstFrame(const FrameReport& report, BenchRow& row) {
     row.cellsSorted = report.cellsSorted;
     row.fragments = report.fragments;
     row.orderMethod = report.orderMethod;
+    row.tileEntries = report.tileEntries;
+    row.tileEntriesSaved = report.tileEntriesSaved;
 }
 
 /// Medians by stage; a frame without a stage has spent nothing on it.
@@ -73,9 +77,29 @@ std::map<std::string, double> stageMedians(const std::vector<FrameReport>& repor
     return medians;
 }
 
-/// Warm-up and timed frames of one size. Comparing is not on the clock.
+/// The largest resident memory while an engine works, without what the benchmark itself needs between frames.
+class EngineMemory {
+public:
+    EngineMemory() : before_(trimmedMemoryBytes()) { restartPeakMemory(); }
+
+    /// What was in use since the last `resume`.
+    void pause() { peak_ = std::max(peak_, peakMemoryBytes()); }
+    void resume() {
+        trimmedMemoryBytes();
+        restartPeakMemory();
+    }
+    void tell(BenchRow& row) const {
+        row.peakMemoryBytes = peak_;
+        row.memoryOverMeshBytes = peak_ - std::min(before_, peak_);
+    }
+
+private:
+    std::uint64_t before_, peak_ = 0;
+};
+
+/// Warm-up and timed frames of one size. Comparing is neither on the clock nor in the memory.
 void drawFrames(Engine& engine, const projection::Scene& scene, const ReferenceImages& reference, const FramePlan& plan,
-                BenchRow& row) {
+                EngineMemory& memory, BenchRow& row) {
     const glm::ivec2 size(row.subject.width, row.subject.height);
     std::vector<FrameReport> reports;
     double spent = 0.0;
@@ -96,8 +120,11 @@ void drawFrames(Engine& engine, const projection::Scene& scene, const ReferenceI
         row.frameMilliseconds.push_back(milliseconds);
         row.processorMilliseconds.push_back(processor);
         row.pixelsRepaired += report.pixelsRepaired;
-        if (static_cast<std::size_t>(frame) < reference.images.size())
+        if (static_cast<std::size_t>(frame) < reference.images.size()) {
+            memory.pause();
             judgeFrame(row, reference, static_cast<std::size_t>(frame), image);
+            memory.resume();
+        }
         reports.push_back(std::move(report));
     }
     describeFirstFrame(reports.front(), row);
@@ -108,6 +135,10 @@ projection::Scene withChoice(projection::Scene scene, const EngineChoice& choice
     scene.settings.threads = choice.threads;
     scene.settings.table.threads = choice.threads;
     scene.settings.table.size = choice.tableSize;
+    if (choice.tableError > 0.0) scene.settings.table.wantedError = choice.tableError;
+    scene.settings.order = choice.order;
+    scene.settings.skipInvisible = choice.skipInvisible;
+    scene.settings.earlyTermination = choice.earlyTermination;
     return scene;
 }
 
@@ -129,10 +160,14 @@ std::string EngineChoice::name() const {
 }
 
 std::string EngineChoice::setting() const {
-    std::string text;
-    if (tableSize > 0) text = fmt::format("table {}", tableSize);
-    if (threads > 0) text += fmt::format("{}{} thread{}", text.empty() ? "" : ", ", threads, threads == 1 ? "" : "s");
-    return text;
+    std::vector<std::string> parts;
+    if (tableSize > 0) parts.push_back(fmt::format("table {}", tableSize));
+    if (tableError > 0.0) parts.push_back(fmt::format("error {:g}", tableError));
+    if (order != projection::OrderMethod::Auto) parts.push_back(orderName(order));
+    if (!skipInvisible) parts.emplace_back("all cells");
+    if (!earlyTermination) parts.emplace_back("to the end");
+    if (threads > 0) parts.push_back(fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"));
+    return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 void judgeFrame(BenchRow& row, const ReferenceImages& reference, std::size_t frame, const Image& image) {
@@ -148,8 +183,7 @@ ReferenceImages judge(const projection::Scene& scene, const BenchSubject& subjec
     ReferenceImages result;
     result.row.subject = subject;
     result.row.engine = "reference";
-    const std::uint64_t before = trimmedMemoryBytes();
-    restartPeakMemory();
+    EngineMemory memory;
     const Stopwatch preparing;
     const auto engine = projection::makeEngine(scene, {.engine = "reference"});
     describeEngine(*engine, preparing.milliseconds(), result.row);
@@ -162,8 +196,8 @@ ReferenceImages judge(const projection::Scene& scene, const BenchSubject& subjec
     }
     describeFirstFrame(reports.front(), result.row);
     result.row.stageMilliseconds = stageMedians(reports);
-    result.row.peakMemoryBytes = peakMemoryBytes();
-    result.row.memoryOverMeshBytes = result.row.peakMemoryBytes - std::min(before, result.row.peakMemoryBytes);
+    memory.pause();
+    memory.tell(result.row);
     result.row.judged = true;
     return result;
 }
@@ -175,23 +209,23 @@ std::vector<BenchRow> measureEngine(const projection::Scene& scene, const Engine
     std::optional<tbb::global_control> threadLimit;
     if (choice.threads > 0)
         threadLimit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(choice.threads));
-    const std::uint64_t before = trimmedMemoryBytes();
-    restartPeakMemory();
+    EngineMemory memory;
     std::unique_ptr<Engine> engine;
     std::size_t done = 0;
     try {
         const Stopwatch preparing;
         engine = projection::makeEngine(withChoice(scene, choice), choice.options);
-        if (choice.tableSize > 0 && engine->table() == nullptr) return {};  // there is nothing to set
+        if (choice.asksForTable() && engine->table() == nullptr) return {};  // there is nothing to set
         const double prepareMilliseconds = preparing.milliseconds();
-        const std::uint64_t preparePeak = peakMemoryBytes();
+        memory.pause();
         for (; done < rows.size(); ++done) {
             BenchRow& row = rows[done];
             describeEngine(*engine, prepareMilliseconds, row);
-            drawFrames(*engine, scene, references[done], plan, row);
-            row.peakMemoryBytes = std::max(preparePeak, peakMemoryBytes());
-            row.memoryOverMeshBytes = row.peakMemoryBytes - std::min(before, row.peakMemoryBytes);
-            restartPeakMemory();
+            EngineMemory ofThisSize = memory;  // preparing counts for all
+            drawFrames(*engine, scene, references[done], plan, ofThisSize, row);
+            ofThisSize.pause();
+            ofThisSize.tell(row);
+            memory.resume();
         }
     } catch (const std::exception& error) {
         for (; done < rows.size(); ++done) rows[done].failure = oneLine(error.what());

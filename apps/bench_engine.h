@@ -25,9 +25,13 @@ struct FramePlan {
 /// One engine with its settings, as a row names it.
 struct EngineChoice {
     projection::EngineOptions options;
-    int tableSize = 0;  ///< texels per scalar axis; 0: chosen by the engine
-    int threads = 0;    ///< 0: all
+    int tableSize = 0;        ///< texels per scalar axis; 0: chosen by the engine
+    int threads = 0;          ///< 0: all
+    double tableError = 0.0;  ///< 0: the default
+    projection::OrderMethod order = projection::OrderMethod::Auto;
+    bool skipInvisible = true, earlyTermination = true;  ///< as RenderSettings has them
 
+    bool asksForTable() const { return tableSize > 0 || tableError > 0.0; }
     std::string name() const;     ///< "cpu", "gl:egl"
     std::string setting() const;  ///< "table 64, 1 thread"; empty for the defaults
 };

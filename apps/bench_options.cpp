@@ -2,6 +2,7 @@
 #include <apps/bench_options.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <stdexcept>
 
@@ -44,6 +45,23 @@ int parseCount(const std::string& option, const std::string& text) {
     return std::stoi(text);
 }
 
+/// 0 for "auto".
+double parseTableError(const std::string& option, const std::string& text) {
+    if (text == "auto") return 0.0;
+    char* end = nullptr;
+    const double error = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0' || !(error > 0.0 && error < 1.0))
+        throw std::runtime_error(
+            fmt::format("{}: '{}' is no error between 0 and 1; give such as 1e-3, or auto", option, text));
+    return error;
+}
+
+bool parseSwitch(const std::string& option, const std::string& text) {
+    if (text != "on" && text != "off")
+        throw std::runtime_error(fmt::format("{}: '{}' is neither on nor off; give one of them or both", option, text));
+    return text == "on";
+}
+
 bool given(const CLI::App& command, const std::string& option) {
     return command.get_option(option)->count() > 0;
 }
@@ -83,8 +101,18 @@ std::vector<std::string> knownNames() {
 void addWithSettings(const projection::EngineOptions& variant, const BenchOptions& options,
                      std::vector<EngineChoice>& choices) {
     for (const int tableSize : options.tableSizes)
-        for (const int threads : options.threads)
-            choices.push_back({.options = variant, .tableSize = tableSize, .threads = threads});
+        for (const double tableError : options.tableErrors)
+            for (const projection::OrderMethod order : options.orders)
+                for (const bool skipInvisible : options.skipInvisible)
+                    for (const bool earlyTermination : options.earlyTermination)
+                        for (const int threads : options.threads)
+                            choices.push_back({.options = variant,
+                                               .tableSize = tableSize,
+                                               .threads = threads,
+                                               .tableError = tableError,
+                                               .order = order,
+                                               .skipInvisible = skipInvisible,
+                                               .earlyTermination = earlyTermination});
 }
 
 /// True when `name` means at least one engine, which is then added.
@@ -152,6 +180,14 @@ void addBenchOptions(CLI::App& command, BenchOptions& options) {
                          "NAME,…");
     addList<int>(command, "--table", options.tableSizes, parseCount, "texels per axis of the table (default auto)",
                  "N,…");
+    addList<double>(command, "--table-error", options.tableErrors, parseTableError,
+                    "error that the table is made for (default auto: 1e-4)", "E,…");
+    addList<projection::OrderMethod>(command, "--order", options.orders, parseOrder,
+                                     fmt::format("{} (default auto)", orderNames()), "ORDER,…");
+    addList<bool>(command, "--skip-invisible", options.skipInvisible, parseSwitch,
+                  "on, off: leave out cells that the transfer function hides (default on)", "on,off");
+    addList<bool>(command, "--early-termination", options.earlyTermination, parseSwitch,
+                  "on, off: leave out what lies behind opaque pixels (default on)", "on,off");
     addList<int>(command, "--threads", options.threads, parseCount, "threads of our engines (default all)", "N,…");
     command.add_option("--frames", options.plan.frames, "timed frames, camera moved before each")
         ->check(CLI::Range(1, 10000))

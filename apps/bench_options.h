@@ -27,6 +27,9 @@ struct BenchOptions {
     std::vector<std::string> engines;  ///< names as in rows; empty: all there are
     std::vector<int> tableSizes{0};
     std::vector<int> threads{0};
+    std::vector<double> tableErrors{0.0};
+    std::vector<projection::OrderMethod> orders{projection::OrderMethod::Auto};
+    std::vector<bool> skipInvisible{true}, earlyTermination{true};
     FramePlan plan;
     std::string csv, json;
     std::vector<std::string> plots;

@@ -55,6 +55,26 @@ std::string stagesText(const BenchRow& row) {
     return text;
 }
 
+std::string tableText(const BenchRow& row) {
+    if (row.tableSize == 0) return "";
+    const std::string slices = row.tableSlices > 1 ? fmt::format("x{}", row.tableSlices) : "";
+    return fmt::format("; table {0}x{0}{1}, error {2:.1e}", row.tableSize, slices, row.tableError);
+}
+
+/// What was left out and which share of its stage that saved.
+std::string savedText(const BenchRow& row) {
+    std::string text;
+    auto add = [&](const std::string& what, std::uint64_t saved, std::uint64_t whole) {
+        if (saved > 0)
+            text += fmt::format("{}{} {:.0f} %", text.empty() ? "; left out: " : ", ", what,
+                                100.0 * static_cast<double>(saved) / static_cast<double>(whole));
+    };
+    for (const auto& [reason, cells] : row.cellsSkipped) add("cells " + reason, cells, row.subject.tetrahedra);
+    add("behind opaque tiles", row.tileEntriesSaved, row.tileEntries);
+    if (row.orderMethod == "none") text += text.empty() ? "; left out: sort" : ", sort";
+    return text;
+}
+
 std::string nameAndSetting(const BenchRow& row) {
     return row.setting.empty() ? row.engine : fmt::format("{}, {}", row.engine, row.setting);
 }
@@ -65,11 +85,12 @@ std::string tableLine(const BenchRow& row) {
     const std::string error =
         row.judged ? fmt::format("{:>9.2e} {:>9.2e} {:>9.2e}", row.error.rmse, row.error.max, row.error.percentile999)
                    : fmt::format("{:>9} {:>9} {:>9}", "-", "-", "-");
-    return fmt::format(
-        "{} {:>8} {:>8} {:>8} {} {:>7} {:>7} {:>6.0f} {:>6.0f} {:>8}  {}\n", name, shortTime(row.medianMilliseconds()),
-        shortTime(row.leastMilliseconds()), shortTime(row.medianProcessorMilliseconds()), error,
-        shortCount(row.tetrahedraPerSecond()), shortCount(row.fragmentsPerSecond()), row.bytesPerTetrahedron(),
-        static_cast<double>(row.peakMemoryBytes) / 1048576.0, shortTime(row.prepareTotalMilliseconds), stagesText(row));
+    return fmt::format("{} {:>8} {:>8} {:>8} {} {:>7} {:>7} {:>6.0f} {:>6.0f} {:>8}  {}\n", name,
+                       shortTime(row.medianMilliseconds()), shortTime(row.leastMilliseconds()),
+                       shortTime(row.medianProcessorMilliseconds()), error, shortCount(row.tetrahedraPerSecond()),
+                       shortCount(row.fragmentsPerSecond()), row.bytesPerTetrahedron(),
+                       static_cast<double>(row.peakMemoryBytes) / 1048576.0, shortTime(row.prepareTotalMilliseconds),
+                       stagesText(row) + tableText(row) + savedText(row));
 }
 
 bool isVtk(const BenchRow& row) {
@@ -128,6 +149,8 @@ const std::vector<Column>& columns() {
         {"fragments_per_s", [](const BenchRow& r) { return number(r.fragmentsPerSecond()); }},
         {"cells_drawn", [](const BenchRow& r) { return fmt::to_string(r.cellsDrawn); }},
         {"cells_skipped", [](const BenchRow& r) { return listed(r.cellsSkipped, "{}"); }},
+        {"tile_entries", [](const BenchRow& r) { return fmt::to_string(r.tileEntries); }},
+        {"tile_entries_saved", [](const BenchRow& r) { return fmt::to_string(r.tileEntriesSaved); }},
         {"cells_sorted", [](const BenchRow& r) { return fmt::to_string(r.cellsSorted); }},
         {"order", [](const BenchRow& r) { return r.orderMethod; }},
         {"pixels_repaired", [](const BenchRow& r) { return fmt::to_string(r.pixelsRepaired); }},
@@ -173,6 +196,7 @@ json rowJson(const BenchRow& row) {
     result["fragments"] = row.fragments;
     result["fragments_per_s"] = row.fragmentsPerSecond();
     result["cells"] = {{"drawn", row.cellsDrawn}, {"skipped", row.cellsSkipped}, {"sorted", row.cellsSorted}};
+    result["tiles"] = {{"entries", row.tileEntries}, {"entries_saved", row.tileEntriesSaved}};
     result["order"] = row.orderMethod;
     result["pixels_repaired"] = row.pixelsRepaired;
     if (row.tableSize > 0)

@@ -44,6 +44,7 @@ struct BenchRow {
 
     std::uint64_t cellsDrawn = 0, cellsSorted = 0, fragments = 0;  ///< of the first frame
     std::map<std::string, std::uint64_t> cellsSkipped;             ///< by reason, first frame
+    std::uint64_t tileEntries = 0, tileEntriesSaved = 0;           ///< as FrameReport has them
     std::string orderMethod;
     std::uint64_t pixelsRepaired = 0;  ///< over all frames
 

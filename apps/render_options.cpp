@@ -78,6 +78,12 @@ void addMachineOptions(CLI::App& command, RenderOptions& options) {
               "ORDER");
     addNumber<int>(command, "--threads", options.settings.threads, positive, "a whole number from 1",
                    "processor threads; default: all");
+    command.add_flag_callback(
+        "--no-early-termination", [&options] { options.settings.earlyTermination = false; },
+        "for measuring: draw also what lies behind opaque pixels");
+    command.add_flag_callback(
+        "--no-skip-invisible", [&options] { options.settings.skipInvisible = false; },
+        "for measuring: draw also cells that the transfer function hides");
     addNumber<double>(command, "--table-error", options.settings.table.wantedError, positive, "a number above 0",
                       "largest error of a pre-integration table, 1e-4");
     addNumber<int>(

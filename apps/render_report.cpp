@@ -133,6 +133,8 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
           {"failing_faces", first.failingFaces},
           {"frames", upkeepJson(record)}}},
         {"fragments", first.fragments},
+        {"tiles",
+         {{"retired", first.tilesRetired}, {"entries", first.tileEntries}, {"entries_saved", first.tileEntriesSaved}}},
         {"ms", timesJson(record, engine)},
         {"pixels", {{"repaired", repaired}, {"wrong", wrong}}},
         {"peak_memory_bytes", peakMemoryBytes()},

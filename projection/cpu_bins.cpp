@@ -30,6 +30,10 @@ void TileBins::fill(const std::vector<Survivor>& survivors, const std::vector<Su
     });
     start_[0] = 0;
     for (std::size_t tile = 0; tile < tiles_; ++tile) start_[tile + 1] += start_[tile];
+    if (entries_.capacity() < start_[tiles_]) {  // growing by doubling, as resize does, would copy and waste
+        entries_ = {};
+        entries_.reserve(start_[tiles_] + start_[tiles_] / 16);
+    }
     entries_.resize(start_[tiles_]);
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
         std::uint32_t* places = counts(c);

@@ -31,6 +31,7 @@ public:
     void sort();
 
     std::size_t tileCount() const { return tiles_; }
+    std::size_t entryCount() const { return entries_.size(); }
     std::span<const TileEntry> tile(std::size_t tile) const {
         return {entries_.data() + start_[tile], entries_.data() + start_[tile + 1]};
     }

@@ -349,11 +349,15 @@ void CpuEngine::draw(Image& image, FrameReport& report) {
         },
         tbb::simple_partitioner());
     std::vector<std::uint32_t> doubtfulPixels = order_.doubtfulPixels;
+    std::uint64_t cellsSetUp = 0;
     for (const TileResult& result : results) {
         report.fragments += result.fragments;
+        cellsSetUp += result.cellsSetUp;
         report.tilesRetired += result.retired ? 1 : 0;
         doubtfulPixels.insert(doubtfulPixels.end(), result.doubtfulPixels.begin(), result.doubtfulPixels.end());
     }
+    report.tileEntries = bins_.entryCount();
+    report.tileEntriesSaved = report.tileEntries - cellsSetUp;
     std::sort(doubtfulPixels.begin(), doubtfulPixels.end());
     doubtfulPixels.erase(std::unique(doubtfulPixels.begin(), doubtfulPixels.end()), doubtfulPixels.end());
     report.doubtfulPixels = std::move(doubtfulPixels);

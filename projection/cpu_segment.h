@@ -3,10 +3,12 @@
 /// From a segment of every pixel of a block to colour: along the pieces of the transfer function, front to back.
 /// Included once per instruction set.
 ///
-/// A segment within one piece needs neither table nor exponential (cpu_piece.glsl). One that crosses nodes is cut
+/// A thin segment within one piece needs neither table nor exponential (cpu_piece.glsl). One that crosses nodes is cut
 /// there, exactly, and walks through its pieces; a cell's pixels do so together, those along which the scalar rises
 /// upwards and the others downwards.
 #include <projection/cpu_simd.h>
+
+#include <hwy/contrib/math/math-inl.h>
 
 #include <projection/cpu_tile.h>
 #include <projection/cpu_transfer.h>
@@ -24,6 +26,9 @@ namespace tetralux::projection::HWY_NAMESPACE {
 #undef TETRALUX_GLSL_FUNCTION
 #define TETRALUX_GLSL_FUNCTION HWY_INLINE
 #include <projection/cell_interval.glsl>
+HWY_INLINE real exp(real a) {
+    return hn::Exp(FloatTag(), a.v);
+}
 #include <projection/cpu_piece.glsl>
 
 /// Premultiplied colour and transmittance, gathered front to back.
@@ -79,34 +84,31 @@ struct DepthSink {
     HWY_INLINE void addDepth(real more) { depth = depth + more; }
 };
 
-/// Segments too deep for the polynomials: cut into parts of equal depth up to where nothing more is seen.
+/// Segments some of which are too deep for the polynomials.
 template <class Sink>
 HWY_NOINLINE void addDeepPiece(const TransferPiece& piece, real middle, real half, real depth, real halfStep,
                                Sink& sink) {
-    constexpr float seen = 14.0f;  // exp(−14) < leastTransmittance
-    const real tame =
-        min(real(1.0f), real(1e12f) / max(depth, real(1e-30f)));  // squares of more leave the range of float
-    const real front = max((depth - halfStep) * tame, real(0.0f)), back = max((depth + halfStep) * tame, real(0.0f));
-    const real whole = depth * tame, shown = min(whole, real(seen));
-    // The first part is half as deep as the others: one that begins without extinction has |δ| = D. Farther on |δ| <
-    // D/5.
-    const int parts = std::max(1, static_cast<int>(std::ceil(largest(shown) + 0.5f)));
-    const float perPart = 1.0f / (static_cast<float>(parts) - 0.5f);
-    real begin(0.0f);
-    for (int i = 1; i <= parts; ++i) {
-        real end = pieceFraction(front, back, shown * real((static_cast<float>(i) - 0.5f) * perPart));
-        if (i == parts) end = select(whole > real(seen), end, real(1.0f));
-        const real width = end - begin, centre = begin + end;  // centre: −1 … 1 after − 1
-        const real slope = back - front;
-        const real d = max((front + slope * (real(0.5f) * centre)) * width, real(0.0f));
-        const real step = real(0.5f) * slope * (width * width);
-        const real opacity = pieceOpacity(min(d, real(1.0f)));
-        const real skew = pieceSkew(min(d, real(1.0f)), clamp(step, real(-0.5f), real(0.5f)));
-        const real at = middle + half * (centre - real(1.0f));
-        sink.add(piece, opacity, at * opacity + half * width * skew);
-        if (none(sink.t > real(leastTransmittance))) break;
-        begin = end;
+    const real most(1e30f), zero(0.0f), one(1.0f);
+    const real thin = min(depth, pieceDepthLimit()), slope = clamp(halfStep, -pieceSlopeLimit(), pieceSlopeLimit());
+    const mask deep = either(depth > pieceDepthLimit(), abs(halfStep) > pieceSlopeLimit());
+    depth = min(depth, most);
+    halfStep = clamp(halfStep, -most, most);
+    const real fade = exp(-min(depth, real(80.0f))), perRoot = one / deepPieceRoot(halfStep);
+    const real front = real(0.5f) * max(depth - halfStep, zero) * perRoot,
+               back = real(0.5f) * max(depth + halfStep, zero) * perRoot;
+    const mask rising = halfStep > zero;
+    real gFront = zero, gBack = zero;
+    if (!none(rising)) {
+        gFront = scaledComplement(front);
+        gBack = scaledComplement(back);
     }
+    if (!none(both(deep, halfStep < real(1e-30f)))) {
+        gFront = select(rising, gFront, dawsonIntegral(front));
+        gBack = select(rising, gBack, dawsonIntegral(back));
+    }
+    const real opacity = select(deep, one - fade, pieceOpacity(thin));
+    const real skew = select(deep, deepPieceSkew(gFront, gBack, perRoot, fade), pieceSkew(thin, slope));
+    sink.add(piece, opacity, middle * opacity + half * skew);
 }
 
 /// Adds a segment within one piece: `middle` and `half` are its mean scalar less the piece's own middle and half its

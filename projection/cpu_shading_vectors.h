@@ -3,8 +3,6 @@
 /// vec3 and the functions that the shading texts call, in SIMD lanes. Included once per instruction set.
 #include <projection/cpu_segment.h>
 
-#include <hwy/contrib/math/math-inl.h>
-
 #if defined(TETRALUX_CPU_SHADING_VECTORS_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TETRALUX_CPU_SHADING_VECTORS_H
 #undef TETRALUX_CPU_SHADING_VECTORS_H
@@ -41,9 +39,6 @@ HWY_INLINE real dot(vec3 a, vec3 b) {
 }
 HWY_INLINE vec3 select(mask m, vec3 a, vec3 b) {
     return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
-}
-HWY_INLINE real exp(real a) {
-    return hn::Exp(FloatTag(), a.v);
 }
 HWY_INLINE real log(real a) {
     return hn::Log(FloatTag(), a.v);

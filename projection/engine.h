@@ -24,8 +24,10 @@ struct FrameReport {
     std::map<std::string, double> stageMilliseconds;    ///< wall time by stage: "sort", "setup", "draw", …
     double frameMilliseconds = 0.0;                     ///< from the new camera to the float image in memory
     std::uint64_t fragments = 0;                        ///< cell–pixel segments, where the engine counts them
-    std::uint64_t tilesRetired = 0;                     ///< tiles that were opaque before their cells were drawn
-    std::string orderMethod;                            ///< how visibility order was found; "none" when not needed
+    /// Entries of tile lists, and how many of them were never set up since their tile was opaque.
+    std::uint64_t tileEntries = 0, tileEntriesSaved = 0;
+    std::uint64_t tilesRetired = 0;  ///< tiles that were opaque before their cells were drawn
+    std::string orderMethod;         ///< how visibility order was found; "none" when not needed
     std::uint64_t cellsSorted = 0;
     std::string orderUpkeep = "none";  ///< "sorted", "kept" or "repaired" of the last frame's; "none" when not needed
     std::uint64_t failingFaces = 0;    ///< inner faces that fail the certificate of power order, of a convex mesh

@@ -3,6 +3,8 @@
 // `tetralux bench` end to end on a tiny scene.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include <tests/apps/command_line_test.h>
 
 namespace tetralux::tests {
@@ -39,9 +41,32 @@ TEST_F(BenchCommand, DrawsOnlyTheEnginesAskedFor) {
     EXPECT_EQ(rows[0]["error"]["rmse"], 0.0);
 }
 
+// Every axis of settings makes rows of its own, and what is left out is told.
+TEST_F(BenchCommand, SettingsAreAxes) {
+    expectGood(
+        "bench bucky:8 --engines cpu --tf opaque --sizes 64x64 --frames 1 --quiet --json out.json "
+        "--order auto,graph --skip-invisible on,off --early-termination on,off");
+    const nlohmann::json rows = json("out.json")["rows"];
+    ASSERT_EQ(rows.size(), 8u);
+    std::set<std::string> settings;
+    for (const nlohmann::json& row : rows) {
+        const auto setting = row["setting"].get<std::string>();
+        settings.insert(setting);
+        EXPECT_EQ(row["cells"]["skipped"].contains("invisible by transfer function"),
+                  setting.find("all cells") == std::string::npos)
+            << setting;
+        EXPECT_EQ(row["order"], setting.find("graph") == std::string::npos ? "power" : "mpvo");
+        EXPECT_LE(row["error"]["rmse"].get<double>(), 1e-4);
+    }
+    EXPECT_EQ(settings.size(), 8u);
+}
+
 TEST_F(BenchCommand, SaysWhatItDoesNotKnow) {
     expectRefused("bench bucky:4 --engines warp", {"--engines", "warp", "reference"});
     expectRefused("bench bucky:4 --tf shiny", {"--tf", "shiny", "smooth"});
+    expectRefused("bench bucky:4 --order random", {"--order", "random", "graph"});
+    expectRefused("bench bucky:4 --skip-invisible maybe", {"--skip-invisible", "maybe", "off"});
+    expectRefused("bench bucky:4 --table-error 2", {"--table-error", "2", "1e-3"});
     expectRefused("bench bucky --cells many", {"--cells", "many", "0.15M"});
     expectRefused("bench bucky:4 --plot plot.jpg", {"plot.jpg", ".svg"});
     expectRefused("bench bucky:4 --json no/such/folder.json", {"no/such/folder.json"});

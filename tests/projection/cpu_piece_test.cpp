@@ -35,14 +35,20 @@ TEST(CpuPiece, ThinPiecesKeepTheirPrecision) {
     }
 }
 
-TEST(CpuPiece, FractionInvertsDepth) {
-    for (double front : {0.0, 0.3, 5.0, 1e6})
-        for (double back : {0.0, 0.2, 7.0, 1e9}) {
-            const double whole = 0.5 * (front + back);
-            for (int i = 1; i <= 4 && whole > 0; ++i) {
-                const double wanted = 0.25 * i * whole, t = glsl::pieceFraction(front, back, wanted);
-                EXPECT_NEAR(t * (front + 0.5 * t * (back - front)), wanted, 1e-7 * whole);
-            }
+// V of a deep piece as the kernel has it. Threshold: the rational functions err by 1e-5 of Ψ ≤ 1, twice.
+TEST(CpuPiece, WeightsOfDeepPieces) {
+    for (const double depth : {0.55, 0.7, 1.0, 1.5, 3.0, 10.0, 40.0, 1e3, 1e9})
+        for (int j = -100; j <= 100; ++j) {
+            const double half = depth * j / 100.0;
+            if (depth <= glsl::pieceDepthLimit() && std::abs(half) <= glsl::pieceSlopeLimit()) continue;
+            const auto exact = preint::linearPieceWeights(depth - half, depth + half);
+            const double perRoot = 1 / glsl::deepPieceRoot(half), front = 0.5 * (depth - half) * perRoot,
+                         back = 0.5 * (depth + half) * perRoot;
+            const double skew = half > 0 ? glsl::deepPieceSkew(glsl::scaledComplement(front),
+                                                               glsl::scaledComplement(back), perRoot, std::exp(-depth))
+                                         : glsl::deepPieceSkew(glsl::dawsonIntegral(front), glsl::dawsonIntegral(back),
+                                                               perRoot, std::exp(-depth));
+            EXPECT_NEAR(skew, exact.backWeight - exact.frontWeight, 3e-5) << depth << " " << half;
         }
 }
 

@@ -289,7 +289,7 @@ void GlCellProgram::setLights(const std::vector<FrameLight>& lights, const Scene
 void GlCellProgram::use(const CameraFrame& frame, double depthReference) const {
     program_.use();
     gl_.Uniform2f(ndcPerPixel_, 2.0f / static_cast<float>(frame.width), 2.0f / static_cast<float>(frame.height));
-    const glm::dvec2 centre = frame.centre - frame.sampleShift;  // where the axis is, seen from the samples
+    const glm::dvec2 centre = sampleCentre(frame);
     gl_.Uniform2f(centre_, static_cast<float>(centre.x), static_cast<float>(centre.y));
     setVector(gl_, viewForward_, frame.forward);
     setVector(gl_, viewRight_, frame.perPixelRight);

@@ -12,6 +12,7 @@ add_library(tetralux_bench STATIC
   bench_scene.cpp
   bench_statistics.cpp
   bench_vtk_rows.cpp
+  option_values.cpp
   plot.cpp
   plot_png.cpp
   plot_svg.cpp

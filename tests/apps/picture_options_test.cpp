@@ -35,6 +35,16 @@ TEST_F(PictureOptions, SliceAndSurfaceEndTheVolume) {
     EXPECT_EQ(pixel.w, 1.0f);
 }
 
+TEST_F(PictureOptions, ClippingTakesSlicesAway) {
+    write("corner.vtu", vtuText(cornerTetrahedron(5)));
+    const std::string render =
+        std::string("render corner.vtu -o a.exr --quiet --tf constant.json --slice 0,0,0.5,0,0,1") + lineView;
+    expectGood(render + " --clip-plane 0,0,0.4,0,0,1");  // what lies above stays
+    EXPECT_EQ(readImage(path("a.exr")).at(0, 0).w, 1.0f);
+    expectGood(render + " --clip-plane 0,0,0.6,0,0,1");  // and with it a length of 0.4 of the volume
+    EXPECT_NEAR(readImage(path("a.exr")).at(0, 0).w, 1.0 - std::exp(-0.28), 2e-6);
+}
+
 TEST_F(PictureOptions, BadObjectsAreRefused) {
     write("square.off", squareOff);
     write("broken.stl", "solid\nfacet nor");

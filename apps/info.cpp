@@ -118,7 +118,8 @@ void printInfo(const InfoOptions& options, const Findings& found) {
     fmt::print("faces: {} inner ({:.1f} % Delaunay), {} on the boundary\n", all.innerFaces, 100.0 * all.delaunayShare(),
                all.boundaryFaces);
     if (found.report.facesFitted > 0)
-        fmt::print("fitted: {} quadrilaterals cut as the two triangles on their other side\n", found.report.facesFitted);
+        fmt::print("fitted: {} quadrilaterals cut as the two triangles on their other side\n",
+                   found.report.facesFitted);
     if (found.report.pointsMerged > 0) fmt::print("merged: {} points with an equal one\n", found.report.pointsMerged);
     fmt::print("memory: {:.1f} MiB\n", static_cast<double>(all.memoryBytes) / (1024.0 * 1024.0));
     fmt::print("fields:{}\n", all.fields.empty() ? " none" : "");

@@ -16,8 +16,8 @@
 namespace tetralux::projection {
 
 /// A cell that may cover pixels, and the tiles of its rectangle.
-struct Survivor {
-    double key;  ///< larger is nearer
+struct [[gnu::packed]] Survivor {  // 20 bytes instead of 24: one for every cell that is seen
+    double key;                    ///< larger is nearer
     mesh::CellIndex cell;
     std::uint16_t x0, y0, x1, y1;  ///< tiles, both ends included
 };

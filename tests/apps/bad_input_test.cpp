@@ -37,7 +37,7 @@ TEST_F(BadInput, Values) {
     for (const char* threads : {"0", "-1", "x"}) expectRefused(render + "--threads " + threads, {"--threads"});
     for (const char* error : {"0", "-1", "nan"}) expectRefused(render + "--table-error " + error, {"--table-error"});
     expectRefused(render + "--table-size 1", {"--table-size"});
-    expectRefused(render + "--mode x-ray", {"--mode", "x-ray", "standard, scale-invariant, mip, average, first-hit"});
+    expectRefused(render + "--mode x-ray", {"--mode", "x-ray", "standard, scale-invariant, mip, minimum, average"});
     expectRefused(render + "--engine vulkan", {"vulkan", "reference"});
     expectRefused(render + "--eye 1,1,1 --target 1,1,1", {"--eye"});
     expectRefused(render + "--eye 0,5,0 --target 0,0,0 --up 0,1,0", {"--up"});

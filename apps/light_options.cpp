@@ -111,7 +111,7 @@ void addLightOptions(CLI::App& command, shading::ShadingSettings& settings) {
     command
         .add_option_function<std::string>(
             "--anisotropy", [&settings](const std::string& text) { setAnisotropy(text, settings.anisotropy); },
-            "for ward and lafortune: radius=4 (edge lengths), interval=0.05 (of the range), samples=11 (per cell), "
+            "for ward and lafortune: radius=4 (edge lengths), interval=0.05 (of the range), samples=4 (per cell), "
             "smoothing=0, kappa=16, gamma=10")
         ->type_name("KEY=VALUE,...");
     command.add_flag("--shadows", settings.shadows.on, "the volume casts shadows");

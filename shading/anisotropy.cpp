@@ -46,9 +46,10 @@ std::vector<Weights> fillingPoints(int count) {
 /// The moments about one point, gathered cell by cell.
 class Neighbourhood {
 public:
-    Neighbourhood(const mesh::ScalarMesh& mesh, mesh::PointIndex point, const glm::dvec3& normal, double radius,
-                  double interval)
+    Neighbourhood(const mesh::ScalarMesh& mesh, const std::vector<double>& levelSetAreas, mesh::PointIndex point,
+                  const glm::dvec3& normal, double radius, double interval)
         : mesh_(mesh),
+          areas_(levelSetAreas),
           centre_(mesh.positions[point]),
           normal_(normal),
           scalar_(mesh.scalars[point]),
@@ -56,16 +57,14 @@ public:
           interval_(interval) {}
 
     void add(mesh::CellIndex cell, const std::vector<Weights>& filling) {
-        std::array<glm::dvec3, 4> corners;  // from the centre, in radii
+        const mesh::Tetrahedron& points = mesh_.cells[cell];
         Weights steps;
-        for (std::size_t k = 0; k < 4; ++k) {
-            corners[k] = (mesh_.positions[mesh_.cells[cell][k]] - centre_) * perRadius_;
-            steps[k] = mesh_.scalars[mesh_.cells[cell][k]] - scalar_;
-        }
+        for (std::size_t k = 0; k < 4; ++k) steps[k] = mesh_.scalars[points[k]] - scalar_;
         const auto [low, high] = std::minmax_element(steps.begin(), steps.end());
         if (*low > interval_ || *high < -interval_) return;
-        const double area = mesh::sixVolumes(corners[0], corners[1], corners[2], corners[3]) *
-                            glm::length(mesh::cellGradient(mesh_, cell) / (perRadius_ * interval_));
+        std::array<glm::dvec3, 4> corners;  // from the centre, in radii
+        for (std::size_t k = 0; k < 4; ++k) corners[k] = (mesh_.positions[points[k]] - centre_) * perRadius_;
+        const double area = areas_[cell];
         for (const Weights& w : filling) {
             const double step = w[0] * steps[0] + w[1] * steps[1] + w[2] * steps[2] + w[3] * steps[3];
             const glm::dvec3 x = w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2] + w[3] * corners[3];
@@ -91,11 +90,28 @@ private:
     }
 
     const mesh::ScalarMesh& mesh_;
+    const std::vector<double>& areas_;
     const glm::dvec3 centre_, normal_;
     const double scalar_, perRadius_, interval_;
     Tensor sum_{};
     double weight_ = 0;
 };
+
+/// Per cell, what its level sets weigh: six times the volume in cubes of `radius`, times how many of `interval` the
+/// scalar changes along a radius.
+std::vector<double> levelSetAreas(const mesh::ScalarMesh& mesh, double radius, double interval) {
+    std::vector<double> areas(mesh.cells.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, areas.size(), 4096), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            std::array<glm::dvec3, 4> corners;
+            for (std::size_t k = 0; k < 4; ++k)
+                corners[k] = (mesh.positions[mesh.cells[i][k]] - mesh.positions[mesh.cells[i][0]]) / radius;
+            areas[i] = mesh::sixVolumes(corners[0], corners[1], corners[2], corners[3]) *
+                       glm::length(mesh::cellGradient(mesh, static_cast<mesh::CellIndex>(i)) * (radius / interval));
+        }
+    });
+    return areas;
+}
 
 /// Every tensor becomes the mean over the corners of the cells around its point.
 std::vector<Tensor> smoothed(const mesh::ScalarMesh& mesh, const std::vector<Tensor>& tensors) {
@@ -124,12 +140,13 @@ std::vector<Tensor> levelSetTensors(const mesh::ScalarMesh& mesh, const std::vec
     if (mesh.association == mesh::Association::Cell || !(radius > 0)) return tensors;
     const double interval = settings.interval * (mesh.scalarMax - mesh.scalarMin);
     const std::vector<Weights> filling = fillingPoints(settings.samples);
+    const std::vector<double> areas = levelSetAreas(mesh, radius, interval);
     const mesh::CellTree tree(mesh.positions, mesh.cells);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tensors.size(), 64), [&](const auto& range) {
         for (std::size_t point = range.begin(); point != range.end(); ++point) {
             const double magnitude = glm::length(gradients[point]);
             if (!(magnitude > 0)) continue;
-            Neighbourhood near(mesh, static_cast<mesh::PointIndex>(point), gradients[point] / magnitude, radius,
+            Neighbourhood near(mesh, areas, static_cast<mesh::PointIndex>(point), gradients[point] / magnitude, radius,
                                interval);
             tree.forEachNear(mesh.positions[point], radius, [&](mesh::CellIndex cell) { near.add(cell, filling); });
             tensors[point] = near.tensor();

@@ -56,7 +56,7 @@ struct Material {
 struct AnisotropySettings {
     double radius = 4.0;     ///< of the neighbourhood, in mean edge lengths of the mesh
     double interval = 0.05;  ///< half-width in scalar, as a share of the field's range
-    int samples = 11;        ///< points that stand for one cell
+    int samples = 4;         ///< points that stand for one cell
     int smoothing = 0;       ///< how often tensors are averaged with those of neighbouring vertices
     double kappa = 16.0;     ///< κ: exponent of an isotropic Ward lobe
     double gamma = 10.0;     ///< γ: how strongly anisotropy counts

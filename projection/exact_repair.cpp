@@ -8,6 +8,7 @@
 #include <projection/cell_setup.h>
 #include <projection/float_limits.h>
 #include <projection/reference_ray_caster.h>
+#include <projection/wrapped_engine.h>
 
 namespace tetralux::projection {
 
@@ -16,10 +17,10 @@ namespace {
 /// Pixels beside a cell's rectangle in which float planes of a flat cell may be evaluated.
 constexpr int blockMargin = 16;
 
-class RepairedEngine final : public Engine {
+class RepairedEngine final : public WrappedEngine {
 public:
     RepairedEngine(std::unique_ptr<Engine> engine, const Scene& scene)
-        : engine_(std::move(engine)), scene_(scene), caster_(scene) {
+        : WrappedEngine(std::move(engine)), scene_(scene), caster_(scene) {
         const Mode mode = scene.settings.mode;
         const bool dense = mode == Mode::Standard || mode == Mode::ScaleInvariant || mode == Mode::FirstHit ||
                            mode == Mode::Absorption;
@@ -45,11 +46,6 @@ public:
         return image;
     }
 
-    std::string name() const override { return engine_->name(); }
-    std::string renderer() const override { return engine_->renderer(); }
-    std::map<std::string, double> prepareMilliseconds() const override { return engine_->prepareMilliseconds(); }
-    const preint::PreintegrationTable* table() const override { return engine_->table(); }
-
 private:
     void doubtCellsBeyondFloat(const Camera& camera, FrameReport& report) const {
         const CellProjector projector(*scene_.mesh, sceneUnits(*scene_.mesh), cameraFrame(camera));
@@ -69,7 +65,6 @@ private:
             if (doubtful[pixel]) report.doubtfulPixels.push_back(pixel);
     }
 
-    std::unique_ptr<Engine> engine_;
     Scene scene_;
     std::vector<mesh::CellIndex> beyondFloat_;
     ReferenceRayCaster caster_;

@@ -4,14 +4,16 @@
 #include <chrono>
 #include <utility>
 
+#include <projection/wrapped_engine.h>
+
 namespace tetralux::projection {
 
 namespace {
 
-class MappedEngine final : public Engine {
+class MappedEngine final : public WrappedEngine {
 public:
     MappedEngine(std::unique_ptr<Engine> engine, const Scene& scene)
-        : engine_(std::move(engine)), sources_(scene.mapSources) {}
+        : WrappedEngine(std::move(engine)), sources_(scene.mapSources) {}
 
     Image render(const View& view, FrameReport& report) override {
         const auto start = std::chrono::steady_clock::now();
@@ -27,13 +29,7 @@ public:
         return image;
     }
 
-    std::string name() const override { return engine_->name(); }
-    std::string renderer() const override { return engine_->renderer(); }
-    std::map<std::string, double> prepareMilliseconds() const override { return engine_->prepareMilliseconds(); }
-    const preint::PreintegrationTable* table() const override { return engine_->table(); }
-
 private:
-    std::unique_ptr<Engine> engine_;
     std::vector<std::shared_ptr<const PixelMapSource>> sources_;
 };
 

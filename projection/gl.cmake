@@ -13,7 +13,8 @@ add_custom_command(
   COMMAND ${GLAD_PROGRAM} --quiet --reproducible --api gl:core=4.5 --extensions= --out-path ${glad_dir} c --mx
   COMMENT "Writing the OpenGL function table" VERBATIM)
 add_library(tetralux_glad STATIC ${glad_dir}/src/gl.c ${glad_dir}/include/glad/gl.h)
-target_include_directories(tetralux_glad SYSTEM PUBLIC ${glad_dir}/include)
+target_include_directories(tetralux_glad SYSTEM PUBLIC $<BUILD_INTERFACE:${glad_dir}/include>)
+target_compile_options(tetralux_glad PRIVATE -w)  # not our code
 
 target_sources(tetralux_projection PRIVATE
   egl_context.cpp

@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <tbb/parallel_for.h>
 #include <unistd.h>
 
 #include <mesh/appended_data.h>
@@ -87,15 +88,38 @@ public:
             return std::nullopt;
         }
         onlyTetrahedra_ = hasOnlyTetrahedra();
-        for (const VtuArray& array : head_.arrays) {
-            if (!take(array)) {
-                return std::nullopt;
+        if (!isEachOnce()) {
+            return std::nullopt;
+        }
+        fields_.resize(head_.arrays.size());
+        std::atomic<bool> good = true;
+        // All at once, because to make room for an array is work for one thread.
+        tbb::parallel_for(std::size_t{0}, head_.arrays.size(), [&](std::size_t i) {
+            if (!take(head_.arrays[i], fields_[i])) {
+                good.store(false, std::memory_order_relaxed);
+            }
+        });
+        for (std::optional<Field>& field : fields_) {
+            if (field) {
+                soup_.fields.push_back(std::move(*field));
             }
         }
-        return isWhole() ? std::optional(std::move(soup_)) : std::nullopt;
+        return good && isWhole() ? std::optional(std::move(soup_)) : std::nullopt;
     }
 
 private:
+    /// Whether there is one array of points and one of each kind for cells, so that no two write to one place.
+    bool isEachOnce() const {
+        const auto count = [&](VtuArray::Place place, const char* name) {
+            return std::count_if(head_.arrays.begin(), head_.arrays.end(), [&](const VtuArray& array) {
+                return array.place == place && (name == nullptr || array.name == name);
+            });
+        };
+        return count(VtuArray::Place::Points, nullptr) == 1 && count(VtuArray::Place::Cells, nullptr) == 3 &&
+               count(VtuArray::Place::Cells, "connectivity") == 1 && count(VtuArray::Place::Cells, "offsets") == 1 &&
+               count(VtuArray::Place::Cells, "types") == 1;
+    }
+
     bool isWhole() const {
         const bool cells = onlyTetrahedra_ ? soup_.tetrahedra.size() == head_.cells
                                            : soup_.types.size() == head_.cells && !soup_.offsets.empty() &&
@@ -151,16 +175,17 @@ private:
                isAlways("offsets", [](std::uint64_t i) { return 4 * (i + 1); });
     }
 
-    bool take(const VtuArray& array) {
+    /// Puts an array of points or cells into `soup_`, another one into `field`.
+    bool take(const VtuArray& array, std::optional<Field>& field) {
         switch (array.place) {
             case VtuArray::Place::Points:
-                return array.components == 3 && soup_.points.empty() && takePoints(array);
+                return array.components == 3 && takePoints(array);
             case VtuArray::Place::Cells:
                 return takeCells(array);
             case VtuArray::Place::PointData:
-                return takeField(array, Association::Point, head_.points);
+                return takeField(array, Association::Point, head_.points, field.emplace());
             case VtuArray::Place::CellData:
-                return takeField(array, Association::Cell, head_.cells);
+                return takeField(array, Association::Cell, head_.cells, field.emplace());
         }
         return false;
     }
@@ -237,13 +262,18 @@ private:
                std::find(soup_.types.begin(), soup_.types.end(), 255) == soup_.types.end();
     }
 
-    bool takeField(const VtuArray& array, Association association, std::uint64_t places) {
+    /// Number of the array among those of its place.
+    std::ptrdiff_t numberOf(const VtuArray& array) const {
+        return std::count_if(head_.arrays.data(), &array,
+                             [&](const VtuArray& earlier) { return earlier.place == array.place; });
+    }
+
+    bool takeField(const VtuArray& array, Association association, std::uint64_t places, Field& field) {
         if (array.name.starts_with("vtkGhost") || array.name == "vtkValidPointMask" ||
             array.name == "RationalWeights" || array.name == "HigherOrderDegrees") {
             return false;  // more than a field: VTK's reader knows
         }
-        Field field;
-        field.name = array.name.empty() ? fmt::format("array {}", soup_.fields.size()) : array.name;
+        field.name = array.name.empty() ? fmt::format("array {}", numberOf(array)) : array.name;
         field.association = association;
         field.components = array.components;
         field.bookkeeping = isBookkeepingName(array.name);
@@ -252,14 +282,13 @@ private:
             resizeInHugePages(field.values, count == wanted ? count : 0);
             return count == wanted ? field.values.data() : nullptr;
         };
-        const bool good = decode<double>(array, room, [](auto value) { return static_cast<double>(value); });
-        soup_.fields.push_back(std::move(field));
-        return good;
+        return decode<double>(array, room, [](auto value) { return static_cast<double>(value); });
     }
 
     const OpenFile& file_;
     const VtuHead& head_;
     CellSoup soup_;
+    std::vector<std::optional<Field>> fields_;  ///< for each array
     bool onlyTetrahedra_ = false;
 };
 

@@ -159,6 +159,7 @@ Decomposition takeTetrahedra(const std::vector<glm::dvec3>& points, std::vector<
     used.assign(points.size(), 0);
     DuplicateSearch search(result.cells.size(), points.size());
     std::atomic<CellVerdict> worst = CellVerdict::Good;
+    const auto kept = [&](std::size_t i) { return isKept(verdicts[i]); };
     using Range = tbb::blocked_range<std::size_t>;
     tbb::parallel_for(Range(0, verdicts.size(), 16384), [&](const Range& range) {
         CellVerdict worstHere = CellVerdict::Good;
@@ -167,13 +168,13 @@ Decomposition takeTetrahedra(const std::vector<glm::dvec3>& points, std::vector<
             markUsed(cell, used);
             verdicts[i] = orientTetrahedron(points, cell);
             worstHere = std::max(worstHere, verdicts[i]);
-            if (isKept(verdicts[i])) {
-                search.note(result.cells, static_cast<std::uint32_t>(i));
+            if (kept(i)) {
+                search.note(cell);
             }
         }
         raise(worst, worstHere);
     });
-    for (const std::uint32_t cell : search.find(result.cells)) {
+    for (const std::uint32_t cell : search.find(result.cells, kept)) {
         verdicts[cell] = CellVerdict::Duplicate;
         worst = CellVerdict::Duplicate;
     }
@@ -183,14 +184,14 @@ Decomposition takeTetrahedra(const std::vector<glm::dvec3>& points, std::vector<
     if (isKept(worst)) {
         return result;
     }
-    std::size_t kept = 0;
+    std::size_t count = 0;
     for (std::size_t i = 0; i < verdicts.size(); ++i) {
-        if (isKept(verdicts[i])) {
-            result.cells[kept++] = result.cells[i];
+        if (kept(i)) {
+            result.cells[count++] = result.cells[i];
             result.parents.push_back(static_cast<std::uint32_t>(i));
         }
     }
-    result.cells.resize(kept);
+    result.cells.resize(count);
     return result;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <sys/mman.h>
+#include <tbb/parallel_for.h>
 
 namespace tetralux::mesh {
 
@@ -23,11 +24,26 @@ inline void preferHugePages(void* begin, std::size_t bytes) {
     }
 }
 
+/// Has the system clear memory that has not been touched yet, by many threads (Linux 5.14; others do it on touch).
+inline void touchPages(void* begin, std::size_t bytes) {
+#ifdef MADV_POPULATE_WRITE
+    constexpr std::uintptr_t page = std::uintptr_t{2} << 20;
+    const std::uintptr_t start = (reinterpret_cast<std::uintptr_t>(begin) + page - 1) / page;
+    const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(begin) + bytes) / page;
+    if (end > start) {
+        tbb::parallel_for(start, end, [](std::uintptr_t i) {
+            ::madvise(reinterpret_cast<void*>(i * page), page, MADV_POPULATE_WRITE);
+        });
+    }
+#endif
+}
+
 /// `values.resize(count)` for an empty vector.
 template <class Value>
 void resizeInHugePages(std::vector<Value>& values, std::size_t count) {
     values.reserve(count);
     preferHugePages(values.data(), count * sizeof(Value));
+    touchPages(values.data(), count * sizeof(Value));
     values.resize(count);
 }
 

@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -51,97 +50,89 @@ bool sameValues(const CellSoup& soup, std::size_t a, std::size_t b) {
     return true;
 }
 
-struct ExactSearch {
-    Representatives representatives;
-    std::vector<std::uint32_t> jumps;  ///< points that stand for themselves though an earlier one has their position
-};
-
-/// Places of a table for points. Those of points that lie near each other are near, because successive points mostly
-/// do, and a place at random would miss the caches.
-class PointPlaces {
-public:
-    PointPlaces(const std::vector<glm::dvec3>& points, std::uint64_t slots)
-        : slotsPerBox_(slots / (boxes * boxes * boxes)), slots_(slots) {
-        constexpr double infinity = std::numeric_limits<double>::infinity();
-        const BoundingBox nothing{glm::dvec3(infinity), glm::dvec3(-infinity)};
-        const BoundingBox bounds = tbb::parallel_reduce(
-            PointRange(0, points.size(), 65536), nothing,
-            [&](const PointRange& range, BoundingBox box) {
-                for (std::size_t p = range.begin(); p != range.end(); ++p) {
-                    if (isFinitePosition(points[p])) {
-                        box.low = glm::min(box.low, points[p]);
-                        box.high = glm::max(box.high, points[p]);
-                    }
-                }
-                return box;
-            },
-            [](const BoundingBox& a, const BoundingBox& b) {
-                return BoundingBox{glm::min(a.low, b.low), glm::max(a.high, b.high)};
-            });
-        low_ = bounds.low;
-        scale_ = static_cast<double>(boxes) / (bounds.high - bounds.low);
-    }
-
-    std::uint64_t operator()(const glm::dvec3& x, std::uint64_t hash) const {
-        if (slotsPerBox_ == 0) {
-            return placeBelow(slots_, hash);
+/// A hash of what `sameValues` compares.
+std::uint64_t valuesHash(const CellSoup& soup, std::size_t p) {
+    std::uint64_t hash = 1;
+    for (const Field& field : soup.fields) {
+        if (field.association == Association::Point && !field.bookkeeping) {
+            const std::size_t components = static_cast<std::size_t>(field.components);
+            for (std::size_t c = 0; c < components; ++c) {
+                const double value = field.values[p * components + c];
+                hash = mixed(hash, std::isnan(value) ? 1 : std::bit_cast<std::uint64_t>(value + 0.0));
+            }
         }
-        const std::uint64_t box = (boxAlong(x, 2) * boxes + boxAlong(x, 1)) * boxes + boxAlong(x, 0);
-        return box * slotsPerBox_ + placeBelow(slotsPerBox_, hash);
     }
+    return hash;
+}
 
-private:
-    static constexpr std::uint64_t boxes = 64;  // along each axis
-
-    std::uint64_t boxAlong(const glm::dvec3& x, int axis) const {
-        const double share = (x[axis] - low_[axis]) * scale_[axis];
-        return share > 0.0 ? static_cast<std::uint64_t>(std::min(share, static_cast<double>(boxes - 1))) : 0;
-    }
-
-    std::uint64_t slotsPerBox_, slots_;
-    glm::dvec3 low_{0}, scale_{0};
-};
+/// Hash and number of every finite point, sorted, whose position another one has, and of some others.
+EqualItems::Pairs findEqualPositions(const std::vector<glm::dvec3>& points) {
+    EqualItems items(points.size(), 0);
+    const auto keyOf = [&](std::uint32_t p) {
+        const std::uint64_t hash = positionHash(points[p]);
+        const std::uint64_t place = placeBelow(items.places(), hash);
+        return EqualItems::Key{place, place, hash};
+    };
+    tbb::parallel_for(PointRange(0, points.size(), 16384), [&](const PointRange& range) {
+        for (std::size_t p = range.begin(); p != range.end(); ++p) {
+            if (isFinitePosition(points[p])) {
+                items.note(keyOf(static_cast<std::uint32_t>(p)));
+            }
+        }
+    });
+    const auto groupOf = [&](std::uint32_t p) {
+        return isFinitePosition(points[p]) ? keyOf(p).group : EqualItems::noGroup;
+    };
+    return items.find(points.size(), groupOf, keyOf);
+}
 
 /// Within a run of equal hashes every point is compared with the earlier ones that stand for others.
-ExactSearch findEqualPoints(const CellSoup& soup) {
-    ExactSearch found{Representatives(soup.points.size()), {}};
-    std::iota(found.representatives.begin(), found.representatives.end(), 0u);
-    EqualItems items(soup.points.size(), 4);
-    const PointPlaces placeOf(soup.points, items.slots());
-    tbb::parallel_for(PointRange(0, soup.points.size(), 16384), [&](const PointRange& range) {
-        for (std::size_t p = range.begin(); p != range.end(); ++p) {
-            const std::uint64_t hash = positionHash(soup.points[p]);
-            items.note(static_cast<std::uint32_t>(p), placeOf(soup.points[p], hash), hash,
-                       [&](std::uint32_t other) { return soup.points[other] == soup.points[p]; });
-        }
-    });
-    const EqualItems::Pairs equal = items.find();
-    std::vector<std::uint32_t> standing;
-    forEachRun(equal, [&](std::size_t first, std::size_t last) {
-        standing.clear();
-        for (std::size_t i = first; i < last; ++i) {
-            const std::uint32_t p = equal[i].second;
-            bool jumps = false;
-            for (const std::uint32_t earlier : standing) {
-                if (soup.points[earlier] == soup.points[p]) {
-                    if (sameValues(soup, earlier, p)) {
-                        found.representatives[p] = earlier;
-                        break;
-                    }
-                    jumps = true;
-                }
+class ExactSearch {
+public:
+    explicit ExactSearch(const CellSoup& soup) : soup_(soup) {
+        const EqualItems::Pairs equal = findEqualPositions(soup.points);
+        forEachRun(equal, [&](std::size_t first, std::size_t last) {
+            standing_.clear();
+            positions_.clear();
+            for (std::size_t i = first; i < last; ++i) {
+                place(equal[i].second);
             }
-            if (found.representatives[p] == p) {
-                standing.push_back(p);
-                if (jumps) {
-                    found.jumps.push_back(p);
+        });
+        std::sort(jumps_.begin(), jumps_.end());
+    }
+
+    Representatives takeRepresentatives() { return std::move(representatives_); }
+    /// Points that stand for themselves though an earlier one has their position.
+    const std::vector<std::uint32_t>& jumps() const { return jumps_; }
+
+private:
+    void place(std::uint32_t p) {
+        std::vector<std::uint32_t>& earlierOnes = standing_[valuesHash(soup_, p)];
+        for (const std::uint32_t earlier : earlierOnes) {
+            if (soup_.points[earlier] == soup_.points[p] && sameValues(soup_, earlier, p)) {
+                if (representatives_.empty()) {
+                    representatives_.resize(soup_.points.size());
+                    std::iota(representatives_.begin(), representatives_.end(), 0u);
                 }
+                representatives_[p] = earlier;
+                return;
             }
         }
-    });
-    std::sort(found.jumps.begin(), found.jumps.end());
-    return found;
-}
+        earlierOnes.push_back(p);
+        const auto isHere = [&](const glm::dvec3& x) { return x == soup_.points[p]; };
+        if (std::any_of(positions_.begin(), positions_.end(), isHere)) {
+            jumps_.push_back(p);
+        } else {
+            positions_.push_back(soup_.points[p]);
+        }
+    }
+
+    const CellSoup& soup_;
+    Representatives representatives_;
+    std::vector<std::uint32_t> jumps_;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> standing_;  // by the hash of their values
+    std::vector<glm::dvec3> positions_;                                       // of those, each once
+};
 
 /// Cells of a grid as wide as the tolerance; a point's partners lie in the 27 around it.
 class ToleranceGrid {
@@ -201,11 +192,11 @@ void renumberPolyhedra(CellSoup& soup, const Representatives& representatives) {
 }
 
 Representatives searchExactly(const CellSoup& soup, MeshReport& report) {
-    ExactSearch found = findEqualPoints(soup);
-    for (const std::uint32_t p : found.jumps) {
+    ExactSearch found(soup);
+    for (const std::uint32_t p : found.jumps()) {
         report.add(Defect::CoincidentPoint, p);
     }
-    return std::move(found.representatives);
+    return found.takeRepresentatives();
 }
 
 Representatives searchWithin(const CellSoup& soup, double tolerance, MeshReport& report) {

@@ -22,9 +22,10 @@ namespace {
 /// Drops repeated tetrahedra. A source cell is counted once, however many tetrahedra it became.
 void dropDuplicates(Decomposition& decomposition, std::size_t pointCount, MeshReport& report) {
     DuplicateSearch search(decomposition.cells.size(), pointCount);
+    const auto all = [](std::size_t) { return true; };
     tbb::parallel_for(std::size_t{0}, decomposition.cells.size(),
-                      [&](std::size_t i) { search.note(decomposition.cells, static_cast<std::uint32_t>(i)); });
-    const std::vector<std::uint32_t> duplicates = search.find(decomposition.cells);
+                      [&](std::size_t i) { search.note(decomposition.cells[i]); });
+    const std::vector<std::uint32_t> duplicates = search.find(decomposition.cells, all);
     if (duplicates.empty()) {
         return;
     }

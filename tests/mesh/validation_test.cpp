@@ -115,6 +115,24 @@ TEST(Validation, DuplicatesAreLeftOutWhateverTheirOrder) {
     EXPECT_EQ(result.mesh.fields[1].values.back(), 134.0);
 }
 
+TEST(Validation, DuplicatesAreFoundAmongManyCellsOfOnePoint) {
+    CellSoup soup;  // a fan of thin tetrahedra around the edge between points 0 and 1, all of it twice
+    constexpr std::uint32_t cells = 30000;
+    soup.points = {{0, 0, 0}, {0, 0, 1}};
+    for (std::uint32_t i = 0; i <= cells; ++i) {
+        const double angle = 6.0 * i / cells;
+        soup.points.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+    }
+    for (std::uint32_t i = 0; i < 2 * cells; ++i) {
+        const std::uint32_t side = 2 + i % cells;
+        appendCell(soup, cell_type::tetrahedron, i < cells ? Ids{0, side, side + 1, 1} : Ids{side + 1, 0, side, 1});
+    }
+    const ReadResult result = tetMeshFromSoup(soup);
+    EXPECT_EQ(countOf(result.report, Defect::DuplicateCell), cells);
+    EXPECT_EQ(placesOf(result, Defect::DuplicateCell).front(), cells);
+    EXPECT_EQ(result.mesh.cells.size(), cells);
+}
+
 TEST(Validation, HiddenCellsAreLeftOutAndTheirValuesWithThem) {
     CellSoup soup = smallSoup();
     soup.hidden.assign(135, 0);
@@ -220,6 +238,23 @@ TEST(MergePoints, JumpsOfTheFieldStayUnlessATolerance) {
     EXPECT_EQ(tetMeshFromSoup(soup, options).mesh.positions.size(), 6u);
     options.mergeTolerance = -1.0;
     expectError([&] { tetMeshFromSoup(soup, options); }, "merge tolerance");
+}
+
+TEST(MergePoints, ManyPointsAtOnePlaceTakeNoLonger) {
+    // A writer's fault that files have: all unset positions are 0, or NaN. Every pair of them compared would take
+    // hours.
+    constexpr std::size_t more = 300000;
+    for (const double place : {0.5, nan}) {
+        CellSoup soup = smallSoup();
+        soup.points.resize(64 + more, glm::dvec3(place));
+        for (std::size_t p = 64; p < soup.points.size(); ++p) {
+            soup.fields[0].values.push_back(static_cast<double>(p / 2));
+        }
+        const ReadResult result = tetMeshFromSoup(soup);
+        EXPECT_EQ(result.report.pointsMerged, place == place ? more / 2 : 0);
+        EXPECT_EQ(countOf(result.report, Defect::CoincidentPoint), place == place ? more / 2 - 1 : 0);
+        EXPECT_EQ(result.mesh.cells.size(), 135u);
+    }
 }
 
 TEST(SmoothCells, MeanOfTheCellsAroundEachPoint) {

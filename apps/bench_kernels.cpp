@@ -47,7 +47,7 @@ void cellSetup(benchmark::State& state) {
         for (mesh::CellIndex cell = 0; cell < mesh.cells.size(); ++cell) {
             projection::PixelRect rect{};
             if (projector.bounds(cell, rect) != projection::SkipReason::None) continue;
-            benchmark::DoNotOptimize(projector.record(cell, rect));
+            benchmark::DoNotOptimize(projector.record(cell));
         }
     }
     countCells(state, mesh.cells.size());

@@ -141,7 +141,7 @@ double CellProjector::eyeSide(mesh::CellIndex cell, int face) const {
 }
 
 template <bool Orthographic>
-CellRecord CellProjector::recordIn(mesh::CellIndex cell, const PixelRect& rect) const {
+CellRecord CellProjector::recordIn(mesh::CellIndex cell) const {
     const SortedCell<Orthographic> sorted(mesh_.cells[cell], points_);
     const auto& forms = sorted.forms;
     const double deepest = forms.a.z + std::max({0.0, forms.ab.z, forms.ac.z, forms.ad.z}),
@@ -151,6 +151,8 @@ CellRecord CellProjector::recordIn(mesh::CellIndex cell, const PixelRect& rect) 
     if (Orthographic || nearest > centroidDepthShare * deepest) {
         reference = single_cell::centroidReference<double, Orthographic>(forms);
     } else {
+        PixelRect rect{};
+        bounds(cell, rect);
         reference = {0.5 * (rect.x0 + rect.x1) - centre.x,
                      0.5 * (rect.y0 + rect.y1) - centre.y,
                      0.5 * deepest,
@@ -186,8 +188,8 @@ CellRecord CellProjector::recordIn(mesh::CellIndex cell, const PixelRect& rect) 
     return record;
 }
 
-CellRecord CellProjector::record(mesh::CellIndex cell, const PixelRect& rect) const {
-    return frame_.orthographic ? recordIn<true>(cell, rect) : recordIn<false>(cell, rect);
+CellRecord CellProjector::record(mesh::CellIndex cell) const {
+    return frame_.orthographic ? recordIn<true>(cell) : recordIn<false>(cell);
 }
 
 template <bool Orthographic>

@@ -78,8 +78,8 @@ public:
     /// coveredPixels of a cell.
     SkipReason bounds(mesh::CellIndex cell, PixelRect& rect) const;
 
-    /// The record of a cell that `bounds` does not skip, given the rectangle from there.
-    CellRecord record(mesh::CellIndex cell, const PixelRect& rect) const;
+    /// The record of a cell that `bounds` does not skip.
+    CellRecord record(mesh::CellIndex cell) const;
 
     /// The cell's projected corners in pixel coordinates when all four lie in front of the eye; nothing otherwise.
     std::optional<std::array<glm::dvec2, 4>> corners(mesh::CellIndex cell) const;
@@ -100,7 +100,7 @@ public:
 
 private:
     template <bool Orthographic>
-    CellRecord recordIn(mesh::CellIndex cell, const PixelRect& rect) const;
+    CellRecord recordIn(mesh::CellIndex cell) const;
     template <bool Orthographic>
     std::array<double, 4> eyeCoordinatesIn(mesh::CellIndex cell) const;
     std::array<glm::dvec3, 4> cornersOf(mesh::CellIndex cell) const;

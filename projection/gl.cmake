@@ -18,6 +18,7 @@ target_compile_options(tetralux_glad PRIVATE -w)  # not our code
 
 target_sources(tetralux_projection PRIVATE
   egl_context.cpp
+  gl_cell_order.cpp
   gl_cell_outline.cpp
   gl_cell_program.cpp
   gl_cell_stream.cpp

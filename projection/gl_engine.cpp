@@ -5,7 +5,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -15,6 +14,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include <projection/edge_on_planes.h>
+#include <projection/gl_cell_order.h>
 #include <projection/gl_cell_program.h>
 #include <projection/gl_cell_stream.h>
 #include <projection/gl_context.h>
@@ -24,7 +24,6 @@
 #include <projection/gl_sampler_probe.h>
 #include <projection/ray_nearness.h>
 #include <projection/transfer_support.h>
-#include <projection/visibility_order.h>
 #include <glm/geometric.hpp>
 
 namespace tetralux::projection {
@@ -122,20 +121,14 @@ public:
                            mode() != Mode::DataContribution && scene.settings.shading.needsGradient();
         if (modeLooksUp(mode())) {
             table_ = buildTable(scene, function_, units_);
-            if (scene.settings.skipInvisible)
-                findVisibleCells();
-            else
-                cellShows_.assign(scene.mesh->cells.size(), 1);
             prepare_["table"] = watch.lap();
             const auto& shading = scene.settings.shading;
             fullLight_ = shading.lit() && !shading.plain();
             layout_.attributes = fullLight_ && vertexLight_->any();
             prepare_["light"] = watch.lap();
-            if (!orderFree(mode()) && orderMatters()) sorter_.emplace(*scene.mesh, scene.settings.order);
-            prepare_["adjacency"] = watch.lap();
-        } else {
-            cellShows_.assign(scene.mesh->cells.size(), 1);
         }
+        order_.emplace(scene, modeLooksUp(mode()) && !orderFree(mode()) && orderMatters(), modeLooksUp(mode()));
+        prepare_["adjacency"] = watch.lap();
         const CurrentGlContext current(*context_);
         makeState();
         prepare_["context"] = watch.lap();
@@ -158,11 +151,6 @@ public:
     const preint::PreintegrationTable* table() const override { return table_ ? &*table_ : nullptr; }
 
 private:
-    struct DrawnCell {
-        mesh::CellIndex cell;
-        PixelRect rect;
-    };
-
     Mode mode() const { return scene_.settings.mode; }
     /// Blending cells of one colour is the same in any order; an order that was asked for is made all the same.
     bool orderMatters() const {
@@ -171,17 +159,13 @@ private:
         return !blends || scene_.settings.order != OrderMethod::Auto || !onlyColor(scene_.transferFunction);
     }
     void makeState();
-    void findVisibleCells();
     const GlCellProgram& program(GlFrameKind kind);
     void setBlending() const;
     void checkScales(const PixelMaps& maps) const;
-    std::vector<mesh::CellIndex> drawingOrder(const CellProjector& projector, FrameReport& report);
-    std::vector<DrawnCell> selectCells(const CellProjector& projector, const std::vector<mesh::CellIndex>& order,
-                                       FrameReport& report) const;
     CellCorners cellCorners(const CellProjector& projector, const CellRecord& record, const CameraFrame& frame,
                             mesh::CellIndex cell) const;
-    void writeCells(const CellProjector& projector, const CameraFrame& frame, double margin, const DrawnCell* cells,
-                    std::size_t count, float* target) const;
+    void writeCells(const CellProjector& projector, const CameraFrame& frame, double margin,
+                    const mesh::CellIndex* cells, std::size_t count, float* target) const;
 
     Scene scene_;
     std::shared_ptr<const shading::VertexLight> vertexLight_;
@@ -190,8 +174,8 @@ private:
     EdgeOnPlanes edgeOnPlanes_;
     preint::TransferFunction function_;  // scene units
     std::optional<preint::PreintegrationTable> table_;
-    std::vector<std::uint8_t> cellShows_;  // whether the transfer function shows anything of a cell
-    std::optional<VisibilitySorter> sorter_;
+    std::optional<GlCellOrder> order_;
+    std::vector<CameraPoint> points_;
     GlCellLayout layout_;
     std::unique_ptr<GlContext> context_;
     std::optional<GlState> state_;
@@ -210,17 +194,6 @@ void GlEngine::makeState() {
         state_->linearSampler = linearSamplerIsExact(gl);
         if (layout_.attributes) state_->vertexLight.emplace(gl, *vertexLight_);
     }
-}
-
-void GlEngine::findVisibleCells() {
-    const CellVisibility visibility(*scene_.mesh, scene_.transferFunction, scene_.settings);
-    cellShows_.resize(scene_.mesh->cells.size());
-    tbb::parallel_for(tbb::blocked_range<mesh::CellIndex>(0, static_cast<mesh::CellIndex>(cellShows_.size()), 4096),
-                      [&](const auto& range) {
-                          for (mesh::CellIndex cell = range.begin(); cell != range.end(); ++cell) {
-                              cellShows_[cell] = visibility.shows(cell);
-                          }
-                      });
 }
 
 const GlCellProgram& GlEngine::program(GlFrameKind kind) {
@@ -254,57 +227,6 @@ void GlEngine::setBlending() const {
     gl.BlendFunc(GL_ONE, orderFree(mode()) ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
 }
 
-// Back to front, or as they come where order does not matter.
-std::vector<mesh::CellIndex> GlEngine::drawingOrder(const CellProjector& projector, FrameReport& report) {
-    if (!sorter_) {
-        report.orderMethod = "none";
-        std::vector<mesh::CellIndex> cells(scene_.mesh->cells.size());
-        std::iota(cells.begin(), cells.end(), mesh::CellIndex{0});
-        return cells;
-    }
-    const VisibilityOrder& order = sorter_->sort(projector);
-    report.wrongUnknown = scene_.settings.order == OrderMethod::Centroid;
-    report.orderMethod = order.method;
-    report.cellsSorted = order.frontToBack.size();
-    report.orderCycles = order.cyclicCells;
-    report.orderUpkeep = order.upkeep;
-    report.failingFaces = sorter_->failingFaces();
-    report.doubtfulPixels = order.doubtfulPixels;
-    return {order.frontToBack.rbegin(), order.frontToBack.rend()};
-}
-
-// The cells that cover pixels and show something, in the same order. What the order leaves out lies behind the eye.
-std::vector<GlEngine::DrawnCell> GlEngine::selectCells(const CellProjector& projector,
-                                                       const std::vector<mesh::CellIndex>& order,
-                                                       FrameReport& report) const {
-    std::vector<DrawnCell> selected(order.size());
-    std::vector<SkipReason> reasons(order.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 2048), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            selected[i].cell = order[i];
-            reasons[i] =
-                cellShows_[order[i]] != 0 ? projector.bounds(order[i], selected[i].rect) : SkipReason::Invisible;
-        }
-    });
-    std::array<std::uint64_t, 4> skipped{};
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        if (reasons[i] == SkipReason::None) {
-            selected[count++] = selected[i];
-        } else {
-            ++skipped[static_cast<std::size_t>(reasons[i])];
-        }
-    }
-    selected.resize(count);
-    skipped[static_cast<std::size_t>(SkipReason::OutsideView)] += scene_.mesh->cells.size() - order.size();
-    for (const SkipReason reason : {SkipReason::OutsideView, SkipReason::NoPixelCentre, SkipReason::Invisible}) {
-        const std::uint64_t cells = skipped[static_cast<std::size_t>(reason)];
-        if (cells > 0) report.cellsSkipped[skipReasonName(reason)] = cells;
-    }
-    report.cellsDrawn = count;
-    return selected;
-}
-
 CellCorners GlEngine::cellCorners(const CellProjector& projector, const CellRecord& record, const CameraFrame& frame,
                                   mesh::CellIndex cell) const {
     const std::array<double, 4> eye = projector.eyeCoordinates(cell);
@@ -318,15 +240,19 @@ CellCorners GlEngine::cellCorners(const CellProjector& projector, const CellReco
 }
 
 void GlEngine::writeCells(const CellProjector& projector, const CameraFrame& frame, double margin,
-                          const DrawnCell* cells, std::size_t count, float* target) const {
+                          const mesh::CellIndex* cells, std::size_t count, float* target) const {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 256), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            const auto [cell, rect] = cells[i];
+            const mesh::CellIndex cell = cells[i];
             CellOutline outline;
             const auto corners = projector.corners(cell);
             if (corners) outline = cellOutline(*corners, margin);
-            if (!corners || !liesNear(outline, frame)) outline = rectangleOutline(rect);
-            const CellRecord record = projector.record(cell, rect);
+            if (!corners || !liesNear(outline, frame)) {
+                PixelRect rect{};
+                projector.bounds(cell, rect);
+                outline = rectangleOutline(rect);
+            }
+            const CellRecord record = projector.record(cell);
             writeCell(layout_, outline, record, layout_.gradient ? projector.gradient(cell) : CellGradient{},
                       layout_.attributes ? cellCorners(projector, record, frame, cell) : CellCorners{},
                       target + i * layout_.floats());
@@ -339,13 +265,12 @@ Image GlEngine::render(const View& view, FrameReport& report) {
     Stopwatch whole, watch;
     auto& stages = report.stageMilliseconds;
     const CameraFrame frame = sampledFrame(view.camera, edgeOnPlanes_);
-    const CellProjector projector(*scene_.mesh, units_, frame);
+    projectPoints(*scene_.mesh, units_, frame, points_);
+    const CellProjector projector(*scene_.mesh, units_, frame, points_);
     stages["project"] = watch.lap();
-    const std::vector<mesh::CellIndex> order = drawingOrder(projector, report);
-    const double sorting = watch.lap();
-    if (sorter_) stages["sort"] = sorting;
-    const std::vector<DrawnCell> cells = selectCells(projector, order, report);
-    stages["setup"] = watch.lap();
+    const std::vector<mesh::CellIndex>& cells = order_->drawnCells(projector, report);
+    stages["setup"] = watch.lap() - order_->sortMilliseconds();
+    if (report.orderMethod != "none") stages["sort"] = order_->sortMilliseconds();
 
     const CurrentGlContext current(*context_);
     const GlFunctions& gl = *state_->gl;

@@ -2,16 +2,16 @@
 #include <projection/visibility_order.h>
 
 #include <algorithm>
-#include <limits>
+#include <numeric>
 #include <optional>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 #include <glm/geometric.hpp>
 
 #include <projection/boundary_reentry.h>
 #include <projection/cell_setup.h>
+#include <projection/key_sort.h>
 #include <projection/order_upkeep.h>
 #include <projection/power_order.h>
 #include <projection/visibility_relations.h>
@@ -65,6 +65,9 @@ const std::string& VisibilitySorter::method() const {
 const OrderKeys& VisibilitySorter::keys() const {
     return state_->keys;
 }
+const mesh::Adjacency& VisibilitySorter::adjacency() const {
+    return state_->adjacency;
+}
 std::uint64_t VisibilitySorter::failingFaces() const {
     return state_->failingFaces;
 }
@@ -72,32 +75,9 @@ std::uint64_t VisibilitySorter::failingFaces() const {
 namespace {
 
 std::vector<mesh::CellIndex> sortedByKeys(const OrderKeys& keys, const CameraFrame& frame) {
-    const std::vector<glm::dvec4>& planes = keys.planes();
-    const glm::dvec4 eye = keys.eye(frame);
-    using Range = tbb::blocked_range<std::size_t>;
-    struct Extent {
-        double far = std::numeric_limits<double>::infinity(), near = -far;
-    };
-    const Extent extent = tbb::parallel_reduce(
-        Range(0, planes.size(), 8192), Extent{},
-        [&](const Range& range, Extent e) {
-            for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                const double key = orderKey(planes[i], eye);
-                e = {std::min(e.far, key), std::max(e.near, key)};
-            }
-            return e;
-        },
-        [](const Extent& a, const Extent& b) {
-            return Extent{std::min(a.far, b.far), std::max(a.near, b.near)};
-        });
-    std::vector<KeyedCell> cells(planes.size()), scratch;
-    tbb::parallel_for(Range(0, planes.size(), 8192), [&](const Range& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i)
-            cells[i] = {orderedKey(orderKey(planes[i], eye), extent.near, extent.far), static_cast<std::uint32_t>(i)};
-    });
-    radixSort(cells, scratch);
-    std::vector<mesh::CellIndex> order(cells.size());
-    std::transform(cells.begin(), cells.end(), order.begin(), [](const KeyedCell& c) { return c.cell; });
+    std::vector<mesh::CellIndex> order(keys.planes().size());
+    std::iota(order.begin(), order.end(), mesh::CellIndex{0});
+    KeySorter().sort(keys, keys.eye(frame), order);
     return order;
 }
 

@@ -44,6 +44,9 @@ public:
     /// Keys that put any of the cells in order, larger first; empty where there are none and sort() must be asked.
     const OrderKeys& keys() const;
 
+    /// Empty with Use::Keys where there are keys, and for an order by centroids.
+    const mesh::Adjacency& adjacency() const;
+
     /// Inner faces that fail the certificate of power order; none were asked for in meshes with a nonconvex boundary.
     std::uint64_t failingFaces() const;
 

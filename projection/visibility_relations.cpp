@@ -6,6 +6,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 namespace tetralux::projection {
 
@@ -56,6 +57,33 @@ std::vector<CellPair> VisibilityRelations::violations(const std::vector<std::uin
     for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
     std::sort(all.begin(), all.end());
     return all;
+}
+
+bool keepsFaceRelations(const mesh::Adjacency& adjacency, const CellProjector& projector,
+                        std::span<const mesh::CellIndex> nearestFirst, std::vector<std::uint32_t>& places) {
+    constexpr std::uint32_t notThere = 0xffffffffu;
+    places.assign(adjacency.neighbours.size(), notThere);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nearestFirst.size(), 4096), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i)
+            places[nearestFirst[i]] = static_cast<std::uint32_t>(i);
+    });
+    // in the order of their numbers, in which cells and points lie side by side
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, places.size(), 4096), true,
+        [&](const auto& range, bool kept) {
+            for (std::size_t i = range.begin(); kept && i != range.end(); ++i) {
+                if (places[i] == notThere) continue;
+                for (std::size_t k = 0; k < 4; ++k) {
+                    const mesh::CellIndex other = adjacency.neighbours[i][k];
+                    if (other == mesh::Adjacency::noNeighbour || other < i || places[other] == notThere) continue;
+                    // negative: the face shows its outside to the eye, the other cell lies in front
+                    const double side = projector.eyeSide(static_cast<mesh::CellIndex>(i), static_cast<int>(k));
+                    kept = kept && !(places[other] > places[i] ? side < 0 : side > 0);
+                }
+            }
+            return kept;
+        },
+        [](bool a, bool b) { return a && b; });
 }
 
 }  // namespace tetralux::projection

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -60,5 +61,10 @@ private:
     std::vector<std::uint16_t> sides_;  // only of faces with a neighbour
     std::vector<CellPair> gaps_, reversedGaps_;
 };
+
+/// Whether `nearestFirst`, any of a mesh's cells, stand as the faces ask that two of them share. `places` is memory for
+/// one number per cell of the mesh, kept from call to call.
+bool keepsFaceRelations(const mesh::Adjacency& adjacency, const CellProjector& projector,
+                        std::span<const mesh::CellIndex> nearestFirst, std::vector<std::uint32_t>& places);
 
 }  // namespace tetralux::projection

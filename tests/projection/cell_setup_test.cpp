@@ -71,7 +71,7 @@ Worst compare(const Scene& scene, const Camera& camera, int stride) {
                 Interval found;
                 if (projector.bounds(c, rect) == SkipReason::None && x >= rect.x0 && x < rect.x1 && y >= rect.y0 &&
                     y < rect.y1)
-                    found = evaluate(projector.record(c, rect), frame, x, y);
+                    found = evaluate(projector.record(c), frame, x, y);
                 const double expected = byCell[c] ? (byCell[c]->tOut - byCell[c]->tIn) / units.length : 0.0;
                 worst.length = std::max(worst.length, std::abs(found.length - expected));
                 if (byCell[c] && found.hit) {

@@ -317,6 +317,24 @@ TEST(GlEngine, KeysAndGraphGiveTheSamePicture) {
     EXPECT_EQ(keys.orderMethod, "power");
     EXPECT_EQ(graph.orderMethod, "mpvo");
     EXPECT_EQ(compareImages(byKeys, byGraph).max, 0.0);
+    EXPECT_EQ(keys.cellsSorted, keys.cellsDrawn) << "only what is drawn is sorted, and keeps all relations";
+    EXPECT_EQ(graph.cellsSorted, scene.mesh->cells.size());
+}
+
+// Most cells lie outside this view and a half is invisible: keys of the rest say the same as the graph of all.
+TEST(GlEngine, OnlyWhatIsDrawnIsSorted) {
+    Scene scene = fieldScene("marschner-lobb:20", Mode::Standard);
+    scene.transferFunction.extinction = {{0.0, 0.0}, {0.5, 0.0}, {1.0, 20.0}};
+    Camera camera = fieldCamera(scene);
+    camera.fovDegrees = 12;
+    FrameReport keys, graph;
+    const Image byKeys = makeGlEngine(scene, {})->render(camera, keys);
+    scene.settings.order = OrderMethod::Graph;
+    const Image byGraph = makeGlEngine(scene, {})->render(camera, graph);
+    EXPECT_LT(keys.cellsDrawn, scene.mesh->cells.size() / 2);
+    EXPECT_EQ(keys.cellsSorted, keys.cellsDrawn);
+    EXPECT_EQ(keys.cellsSkipped, graph.cellsSkipped);
+    EXPECT_EQ(compareImages(byKeys, byGraph).max, 0.0);
 }
 
 TEST(GlEngine, SkippingInvisibleCellsChangesNothing) {

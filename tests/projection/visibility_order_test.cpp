@@ -14,6 +14,7 @@
 #include <projection/cell_setup.h>
 #include <projection/edge_on_planes.h>
 #include <projection/exact_repair.h>
+#include <projection/key_sort.h>
 #include <projection/order_upkeep.h>
 #include <projection/power_order.h>
 #include <projection/reference_ray_caster.h>
@@ -295,6 +296,45 @@ TEST(RadixSort, SortsStably) {
     std::stable_sort(expected.begin(), expected.end(), [](auto& a, auto& b) { return a.key < b.key; });
     radixSort(cells, scratch);
     for (std::size_t i = 0; i < cells.size(); ++i) ASSERT_EQ(cells[i].cell, expected[i].cell);
+}
+
+// Keys of a mesh whose cells differ by 1e-6 of the largest key's range and less: whole numbers of 32 bits leave ties.
+TEST(KeySorter, TellsApartWhatDoublesTellApart) {
+    mesh::ScalarMesh m = boxMesh(9, plain);
+    for (glm::dvec3& p : m.positions)
+        if (p.x < 0.999) p.x *= 1e-8;  // slabs, and one of the old size
+    m = finished(std::move(m));
+    const OrderKeys keys = OrderKeys::centroid(m);
+    const glm::dvec4 eye = keys.eye(cameraFrame(cameraAt({1.9, 1.4, 2.3})));
+    std::vector<mesh::CellIndex> cells, expected;
+    for (mesh::CellIndex cell = 0; cell < m.cells.size(); cell += 2) cells.push_back(cell);
+    expected = cells;
+    std::stable_sort(expected.begin(), expected.end(),
+                     [&](auto a, auto b) { return orderKey(keys.planes()[a], eye) > orderKey(keys.planes()[b], eye); });
+    KeySorter().sort(keys, eye, cells);
+    EXPECT_EQ(cells, expected);
+}
+
+// An order of some of a mesh's cells is refused once two that share a face change places.
+TEST(FaceRelations, AreCheckedAmongAnyCells) {
+    const mesh::ScalarMesh m = jitteredBoxMesh(6, 0.1, 5, plain);
+    VisibilitySorter sorter(m);
+    const CellProjector projector(m, sceneUnits(m), cameraFrame(cameraAt({1.9, 1.4, 2.3})));
+    std::vector<mesh::CellIndex> some;
+    for (const mesh::CellIndex cell : sorter.sort(projector).frontToBack)
+        if (cell % 3 != 0) some.push_back(cell);
+    std::vector<std::uint32_t> places;
+    EXPECT_TRUE(keepsFaceRelations(sorter.adjacency(), projector, some, places));
+    for (std::size_t i = 0; i < some.size(); ++i)
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto other = std::find(some.begin(), some.end(), sorter.adjacency().neighbours[some[i]][k]);
+            if (other == some.end() || projector.eyeSide(some[i], static_cast<int>(k)) == 0) continue;
+            std::vector<mesh::CellIndex> swapped = some;
+            std::swap(swapped[i], swapped[static_cast<std::size_t>(other - some.begin())]);
+            ASSERT_FALSE(keepsFaceRelations(sorter.adjacency(), projector, swapped, places)) << i << ' ' << k;
+            i += 20;
+            break;
+        }
 }
 
 TEST(OrderedKey, AscendsFromNearToFar) {

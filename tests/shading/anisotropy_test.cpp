@@ -53,12 +53,11 @@ TEST(Anisotropy, FollowsACylindersAxis) {
     const auto m = boxMesh(21, [&](const glm::dvec3& p) { return glm::length(glm::cross(p - glm::dvec3(0.5), axis)); });
     const auto samples = samplesOf(m, 0.1, 0.2);
     ASSERT_GT(samples.size(), 100u);
-    double largest = 0, sum = 0;
+    double largest = 0;
     for (const Sample& sample : samples) {
         const double angle =
             std::acos(std::min(1.0, std::abs(glm::dot(sample.anisotropy.direction, axis)))) * 180 / std::numbers::pi;
         largest = std::max(largest, angle);
-        sum += angle;
     }
     RecordProperty("largest", std::to_string(largest));
     EXPECT_LT(largest, 2.0);  // degrees

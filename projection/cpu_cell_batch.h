@@ -89,8 +89,11 @@ HWY_INLINE bool batchRectangles(const TileFrame& frame, const hn::Vec<DoubleTag>
     return !hn::AllTrue(pairs, hn::Eq(sum, sum));
 }
 
+/// What is kept of a cell's gradient.
+enum class GradientParts { None, Magnitude, All };
+
 /// Lanes j … of the batch: everything but what lies behind the eye.
-template <bool Orthographic, bool Gradients>
+template <bool Orthographic, GradientParts gradients>
 HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const SortedCorners& corners, std::size_t j,
                            CellBatch& batch) {
     const DoubleTag tag;
@@ -154,15 +157,16 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
     storeFloats(depths.nearnessPerRho, &batch.nearnessPerRho[j]);
     storeFloats(depths.nearness - wide(frame.orderTolerance) - depths.rounding, &batch.nearnessChecked[j]);
     storeFloats(depths.nearness, &batch.nearness[j]);
-    if constexpr (Gradients) {
+    if constexpr (gradients != GradientParts::None) {
         const wide inverse(1.0 / frame.pixel);
         const wide gx = cell.gradient.x * inverse, gy = cell.gradient.y * inverse, gz = cell.gradient.z;
         const wide magnitude = sqrt(gx * gx + gy * gy + gz * gz);
+        storeFloats(magnitude, &batch.gradient[j]);
+        if constexpr (gradients == GradientParts::Magnitude) return special;
         const wide scale = select(magnitude > zero, wide(1.0) / magnitude, zero);
         storeFloats(gx * scale, &batch.normal[0][j]);
         storeFloats(gy * scale, &batch.normal[1][j]);
         storeFloats(gz * scale, &batch.normal[2][j]);
-        storeFloats(magnitude, &batch.gradient[j]);
         if (frame.lightInFull) {
             wide perDeterminant = wide(1.0) / forms.determinant;
             if constexpr (Orthographic) perDeterminant = perDeterminant * abs(reference.depth);
@@ -176,7 +180,7 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
 }
 
 /// Sets up the first (up to eight) of `entries`; the number of cells in the batch.
-template <bool Orthographic, bool Gradients>
+template <bool Orthographic, GradientParts gradients>
 HWY_INLINE std::size_t setUpBatch(const TileFrame& frame, int tileX, int tileY, std::span<const TileEntry> entries,
                                   CellBatch& batch) {
     const std::size_t cells = std::min<std::size_t>(entries.size(), CellBatch::capacity);
@@ -190,7 +194,7 @@ HWY_INLINE std::size_t setUpBatch(const TileFrame& frame, int tileX, int tileY, 
     sortCorners(frame, eight, corners);
     bool special = false;
     for (std::size_t j = 0; j < cells; j += hn::Lanes(DoubleTag()))
-        special |= setUpLanes<Orthographic, Gradients>(frame, tileX, tileY, corners, j, batch);
+        special |= setUpLanes<Orthographic, gradients>(frame, tileX, tileY, corners, j, batch);
     if (HWY_UNLIKELY(special))
         for (std::size_t j = 0; j < cells; ++j) {
             const std::int32_t points[4] = {corners.point[0][j], corners.point[1][j], corners.point[2][j],

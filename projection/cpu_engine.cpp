@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <numeric>
 #include <optional>
 
@@ -38,6 +39,28 @@ constexpr double orderRounding = 1e-6;
 
 /// Counts per chunk and tile are kept below this, and chunks above a size that is worth a task.
 constexpr std::size_t mostPlaces = std::size_t{1} << 20, leastChunk = 4096, usualChunk = 16384;
+
+/// Largest whole exponent that is taken by squaring: rounding stays below 1e-4.
+constexpr double largestWholeExponent = 1024;
+
+QuickLook quickLook(const shading::ShadingSettings& shading, const std::vector<std::array<float, 3>>& lights) {
+    QuickLook quick;
+    if (!shading.plain() || shading.gradientOpacity > 0 || shading.approximateSilhouette ||
+        lights.size() > QuickLook::mostLights)
+        return quick;
+    quick.look = lights.empty() ? Look::Silhouettes : Look::Lit;
+    quick.silhouettes = shading.silhouette;
+    quick.transmission = shading.transmission;
+    quick.lights = lights.size();
+    for (std::size_t i = 0; i < lights.size(); ++i) std::copy_n(lights[i].begin(), 3, quick.towards[i]);
+    quick.ambient = static_cast<float>(shading.ambient);
+    quick.exponent = static_cast<float>(shading.exponent);
+    const double whole = std::round(shading.exponent);
+    if (whole == shading.exponent && whole >= 1 && whole <= largestWholeExponent)
+        quick.wholeExponent = static_cast<unsigned>(whole);
+    if (shading.exponent > 0) quick.leastCosine = static_cast<float>(std::pow(1e-8, 1 / shading.exponent));
+    return quick;
+}
 
 class CpuEngine final : public Engine {
 public:
@@ -234,6 +257,7 @@ void CpuEngine::setFrame() {
                                  static_cast<float>(-glm::dot(towards, frame.up)),
                                  static_cast<float>(glm::dot(towards, frame.forward))});
     }
+    if (skips_.quickLooks) frame_.look = quickLook(shading, frame_.lights);
 }
 
 /// The pixel maps as nearness along rays, and whether the frame needs the kernel that honours them.

@@ -22,6 +22,7 @@ struct CpuSkips {
     bool invisibleCells = true;    ///< cells that the transfer function hides are not looked at
     bool earlyTermination = true;  ///< opaque pixels and tiles are left alone
     bool orderFree = true;         ///< no sort where order does not matter
+    bool quickLooks = true;        ///< silhouettes and plain light by kernels made for just these
     bool keepFrame = true;         ///< lists are kept while the camera stays
     bool sort = true;              ///< off: cells in the mesh's order, which must show as doubtful pixels
 };

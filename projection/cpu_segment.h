@@ -162,12 +162,26 @@ HWY_INLINE void addClipped(const TransferPiece& piece, const Segments& segments,
     addPiece(piece, begin + half - real(piece.middle), half, path, sink);
 }
 
+/// The isosurface between two pieces that show nothing else; nullptr: there is more to see, or less.
+HWY_INLINE const TransferPeak* onlyPeak(const CpuTransfer& transfer, std::size_t first, std::size_t last) {
+    const TransferPiece &a = transfer.pieces()[first], &b = transfer.pieces()[last];
+    const bool only = last == first + 1 && !a.visible && !b.visible && a.peakEnd == a.peakBegin + 1;
+    return only ? &transfer.peaks()[a.peakBegin] : nullptr;
+}
+
+HWY_INLINE mask crossed(const TransferPeak& peak, const Segments& segments) {
+    const real value(peak.value);
+    return both(segments.live, exactlyOne(segments.front < value, segments.back < value));
+}
+
 /// Segments that cross nodes or isosurfaces: pieces first … last of the transfer function.
 template <bool ScaleInvariant, class Sink>
 HWY_INLINE void addAcrossPieces(const CpuTransfer& transfer, std::size_t first, std::size_t last,
                                 const Segments& segments, Sink& sink) {
     const auto& pieces = transfer.pieces();
     const auto& peaks = transfer.peaks();
+    if (const TransferPeak* peak = onlyPeak(transfer, first, last))
+        return sink.addPeak(*peak, crossed(*peak, segments));
     // a step too small to be divided by is made larger: the pieces that it lies in stay the same within 1e-6 of the
     // range
     Segments cut = segments;

@@ -53,6 +53,25 @@ struct TileLimits {
     std::vector<std::array<float, 3>> normal;  ///< of the cut at `nearest`, as (right, down, forward); empty: none
 };
 
+/// How segments of TileKind::Shaded are shaded.
+enum class Look {
+    General,      ///< anything (cpu_shading.h)
+    Silhouettes,  ///< silhouettes alone; this and the next by cpu_look.h
+    Lit           ///< plain lights, with silhouettes or without
+};
+
+/// What the quick looks need of a frame.
+struct QuickLook {
+    static constexpr std::size_t mostLights = 8;
+    Look look = Look::General;
+    bool silhouettes = false, transmission = false;
+    std::size_t lights = 0;
+    float towards[mostLights][3] = {};  ///< each light, as (right, down, forward)
+    float ambient = 0, exponent = 0;
+    unsigned wholeExponent = 0;  ///< the exponent, when it is a whole number that squaring makes; else 0
+    float leastCosine = 0;       ///< below it a lobe is less than 1e-8
+};
+
 /// The same for all tiles of one frame.
 struct TileFrame {
     const CameraFrame* camera;
@@ -72,6 +91,7 @@ struct TileFrame {
     float orderTolerance;   ///< of nearness
     const shading::ShadingSettings* shading;
     std::vector<std::array<float, 3>> lights;  ///< towards each, as (right, down, forward)
+    QuickLook look;
     // light in full (cpu_light.h): anything that ShadingSettings::plain() does not hold for
     bool lightInFull;
     LightModelFloats lightModel;

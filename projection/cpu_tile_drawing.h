@@ -9,7 +9,9 @@
 #include <type_traits>
 
 #include <projection/cpu_cell_batch.h>
+#include <projection/cpu_cell_rays.h>
 #include <projection/cpu_limited_segment.h>
+#include <projection/cpu_look.h>
 #include <projection/cpu_segment.h>
 #include <projection/cpu_shading.h>
 #include <projection/cpu_tile.h>
@@ -27,7 +29,8 @@ namespace tetralux::projection::HWY_NAMESPACE {
 
 /// `Limited`: within frame.limits and with frame.classification; then ScaleInvariant is false and frame.scaleInvariant
 /// counts, and Peaks is true.
-template <TileKind Kind, bool Orthographic, bool ScaleInvariant, bool Peaks, bool Limited>
+/// `look`: how Composite is shaded; General: not at all.
+template <TileKind Kind, bool Orthographic, bool ScaleInvariant, bool Peaks, bool Limited, Look look>
 class TileDrawing {
 public:
     TileDrawing(const TileFrame& frame, int x0, int y0, TileResult& result)
@@ -68,8 +71,11 @@ private:
         Kind == TileKind::Composite || Kind == TileKind::Shaded || Kind == TileKind::FirstHit;
     static constexpr bool integrates = colors || Kind == TileKind::Absorption || Kind == TileKind::Additive ||
                                        Kind == TileKind::Depth || Kind == TileKind::Contribution;
-    static constexpr bool gradients = Kind == TileKind::Shaded || Kind == TileKind::FirstHit ||
-                                      Kind == TileKind::Additive || (Limited && Kind == TileKind::Absorption);
+    static constexpr bool usesNormals = look == Look::Lit || Kind == TileKind::Shaded || Kind == TileKind::FirstHit ||
+                                        Kind == TileKind::Additive || (Limited && Kind == TileKind::Absorption);
+    static constexpr GradientParts gradients = usesNormals                 ? GradientParts::All
+                                               : look == Look::Silhouettes ? GradientParts::Magnitude
+                                                                           : GradientParts::None;
     static constexpr int rows = static_cast<int>(laneCount()) / columnWidth;
 
     static std::size_t indexOf(int x, int y) {
@@ -119,36 +125,6 @@ private:
         }
     }
 
-    /// Entering and leaving nearness ratio of the block's rays; the cell's front faces stand first in `face`.
-    HWY_INLINE void interval(std::size_t j, const int* face, int fronts, real dx, real dy, real& in, real& out) const {
-        auto rho = [&](int k) HWY_ATTR {
-            const auto& plane = batch_.plane[face[k]];
-            return planeRho(cell_real{plane[0][j]}, cell_real{plane[1][j]}, cell_real{plane[2][j]}, dx, dy);
-        };
-        in = real(batch_.rhoNear[j]);
-        out = real(batch_.rhoFar[j]);
-        const real r0 = rho(0), r1 = rho(1), r2 = rho(2), r3 = rho(3);
-        switch (fronts) {
-            case 1:
-                in = min(in, r0);
-                out = max(max(out, r1), max(r2, r3));
-                return;
-            case 2:
-                in = min(min(in, r0), r1);
-                out = max(max(out, r2), r3);
-                return;
-            case 3:
-                in = min(min(in, r0), min(r1, r2));
-                out = max(out, r3);
-                return;
-            case 0:
-                out = max(max(out, r0), max(r1, max(r2, r3)));
-                return;
-            default:
-                in = real(-1e30f);  // seen from nowhere outside: a flat cell
-        }
-    }
-
     HWY_INLINE void drawCell(std::size_t j) {
         const int x1 = batch_.end[j][0], y1 = batch_.end[j][1];
         const int xBegin = batch_.begin[j][0] / columnWidth * columnWidth, yFirst = batch_.begin[j][1],
@@ -157,8 +133,6 @@ private:
         const int yBegin = (y1 - yFirst + rows - 1) / rows == (y1 - yGrid + rows - 1) / rows ? yGrid : yFirst;
         if (xBegin >= x1 || yBegin >= y1) return;
         const FaceOrder& order = faceOrders[batch_.frontMask[j]];
-        const int* face = order.face;
-        const int fronts = order.fronts;
         std::size_t first = 0, last = 0;
         if constexpr (integrates) {
             const CpuTransfer& transfer = *frame_.transfer;
@@ -170,12 +144,13 @@ private:
                 last = std::max(first, transfer.pieceFromBelow(batch_.scalarHigh[j]));
             }
         }
+        if constexpr (look != Look::General) setLook<look == Look::Lit>(frame_.look, batch_, j, look_);
         for (int x = xBegin; x < x1; x += columnWidth) {
             const real dx = laneX_ + real(batch_.offsetX[j] + static_cast<float>(x));
             for (int y = yBegin; y < y1; y += rows) {
                 const real dy = laneY_ + real(batch_.offsetY[j] + static_cast<float>(y));
                 real in, out;
-                interval(j, face, fronts, dx, dy, in, out);
+                cellInterval(batch_, j, order, dx, dy, in, out);
                 drawBlock(j, indexOf(x, y), x, y, dx, dy, in, out, first, last);
             }
         }
@@ -219,7 +194,10 @@ private:
 
         if constexpr (Kind == TileKind::Composite) {
             ColorSink sink{loadAt(px_.r + at), loadAt(px_.g + at), loadAt(px_.b + at), t};
-            integrate(first, last, segments, sink);
+            if constexpr (look == Look::General)
+                integrate(first, last, segments, sink);
+            else
+                integrateLooked({j, at, x, y, dx, dy, in, out, rayLength, cut}, first, last, segments, sink);
             storeAt(sink.r, px_.r + at);
             storeAt(sink.g, px_.g + at);
             storeAt(sink.b, px_.b + at);
@@ -275,6 +253,28 @@ private:
         [[maybe_unused]] mask cut;  ///< where a limit cuts the front
     };
 
+    HWY_INLINE void integrateLooked(const Block& block, std::size_t first, std::size_t last, const Segments& segments,
+                                    ColorSink& sink) const {
+        BlockLook pixels;
+        pixels.fall = fallOf(block);
+        pixels.rayLength = block.rayLength;
+        if constexpr (look == Look::Lit && !Orthographic) {
+            const real pixel(frame_.pixel);
+            pixels.inverse = reciprocal(block.rayLength);
+            pixels.x = pixel * laneX_ + real(frame_.pixel * (x0_ + block.x - frame_.centre.x));
+            pixels.y = pixel * laneY_ + real(frame_.pixel * (y0_ + block.y - frame_.centre.y));
+        }
+        LookedSegments<look == Look::Lit, Orthographic, ScaleInvariant, Peaks>{frame_, look_, pixels, segments}.add(
+            first, last, sink);
+    }
+
+    HWY_INLINE real fallOf(const Block& block) const {
+        real across(0.0f);
+        if constexpr (!Orthographic)
+            across = real(batch_.scalarPerX[block.j]) * block.dx + real(batch_.scalarPerY[block.j]) * block.dy;
+        return scalarFall(across, cell_real{batch_.scalarPerRho[block.j]});
+    }
+
     HWY_INLINE void drawShaded(const Block& block, real t, std::size_t first, std::size_t last,
                                const Segments& segments) {
         const std::size_t at = block.at;
@@ -313,10 +313,7 @@ private:
             return segmentMiddles<Orthographic>(block.dx, block.dy, block.in, block.out);
         };
         const auto place = [&]() HWY_ATTR { return middlePlace(block, towards); };
-        real across(0.0f);
-        if constexpr (!Orthographic)
-            across = real(batch_.scalarPerX[j]) * block.dx + real(batch_.scalarPerY[j]) * block.dy;
-        const real fall = scalarFall(across, cell_real{batch_.scalarPerRho[j]});
+        const real fall = fallOf(block);
         if constexpr (Limited) {
             const vec3 normal(loadAt(limits_.normal[0] + block.at), loadAt(limits_.normal[1] + block.at),
                               loadAt(limits_.normal[2] + block.at));
@@ -465,13 +462,14 @@ private:
     TileResult& result_;
     real laneX_, laneY_;
     CellBatch batch_;
+    CellLook look_;
     TileBuffers px_;
     struct NoLimits {};
     std::conditional_t<Limited, LimitBuffers<tilePixels>, NoLimits> limits_;
 };
 
-template <TileKind Kind, bool Orthographic, bool ScaleInvariant, bool Peaks, bool Limited>
-void TileDrawing<Kind, Orthographic, ScaleInvariant, Peaks, Limited>::resolve(Image& image) const {
+template <TileKind Kind, bool Orthographic, bool ScaleInvariant, bool Peaks, bool Limited, Look look>
+void TileDrawing<Kind, Orthographic, ScaleInvariant, Peaks, Limited, look>::resolve(Image& image) const {
     const int width = std::min(cpuTileSize, frame_.width - x0_), height = std::min(cpuTileSize, frame_.height - y0_);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
@@ -485,10 +483,11 @@ void TileDrawing<Kind, Orthographic, ScaleInvariant, Peaks, Limited>::resolve(Im
         }
 }
 
-template <TileKind Kind, bool Orthographic, bool ScaleInvariant, bool Peaks, bool Limited = false>
+template <TileKind Kind, bool Orthographic, bool ScaleInvariant, bool Peaks, bool Limited = false,
+          Look look = Look::General>
 void drawTileAs(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
                 TileResult& result) {
-    TileDrawing<Kind, Orthographic, ScaleInvariant, Peaks, Limited> drawing(frame, x0, y0, result);
+    TileDrawing<Kind, Orthographic, ScaleInvariant, Peaks, Limited, look> drawing(frame, x0, y0, result);
     drawing.draw(entries);
     drawing.resolve(image);
 }

@@ -13,6 +13,33 @@
 HWY_BEFORE_NAMESPACE();
 namespace tetralux::projection::HWY_NAMESPACE {
 
+template <bool Orthographic, bool ScaleInvariant, Look look>
+void drawLookedTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+                    TileResult& result) {
+    if constexpr (look == Look::General)
+        drawTileAs<TileKind::Shaded, Orthographic, ScaleInvariant, true>(frame, x0, y0, entries, image, result);
+    else if (frame.transfer->peaks().empty())
+        drawTileAs<TileKind::Composite, Orthographic, ScaleInvariant, false, false, look>(frame, x0, y0, entries, image,
+                                                                                          result);
+    else
+        drawTileAs<TileKind::Composite, Orthographic, ScaleInvariant, true, false, look>(frame, x0, y0, entries, image,
+                                                                                         result);
+}
+
+template <bool Orthographic, bool ScaleInvariant>
+void drawShadedTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+                    TileResult& result) {
+    switch (frame.look.look) {
+        case Look::General:
+            return drawLookedTile<Orthographic, ScaleInvariant, Look::General>(frame, x0, y0, entries, image, result);
+        case Look::Silhouettes:
+            return drawLookedTile<Orthographic, ScaleInvariant, Look::Silhouettes>(frame, x0, y0, entries, image,
+                                                                                   result);
+        case Look::Lit:
+            return drawLookedTile<Orthographic, ScaleInvariant, Look::Lit>(frame, x0, y0, entries, image, result);
+    }
+}
+
 template <bool Orthographic>
 void drawTileIn(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
                 TileResult& result) {
@@ -40,9 +67,8 @@ void drawTileIn(const TileFrame& frame, int x0, int y0, std::span<const TileEntr
                          : drawTileAs<TileKind::Composite, Orthographic, false, false>(frame, x0, y0, entries, image,
                                                                                        result);
         case TileKind::Shaded:
-            if (frame.scaleInvariant)
-                return drawTileAs<TileKind::Shaded, Orthographic, true, true>(frame, x0, y0, entries, image, result);
-            return drawTileAs<TileKind::Shaded, Orthographic, false, true>(frame, x0, y0, entries, image, result);
+            if (frame.scaleInvariant) return drawShadedTile<Orthographic, true>(frame, x0, y0, entries, image, result);
+            return drawShadedTile<Orthographic, false>(frame, x0, y0, entries, image, result);
         case TileKind::FirstHit:
             return drawTileAs<TileKind::FirstHit, Orthographic, false, true>(frame, x0, y0, entries, image, result);
         case TileKind::Additive:

@@ -194,6 +194,31 @@ TEST(CpuEngine, SilhouettesAndLight) {
         }
 }
 
+// Float; where a ray grazes an isosurface 1/|n·d| carries the rounding of n·d a thousandfold.
+constexpr Threshold lookThreshold{1e-5, 1e-3};
+
+TEST(CpuEngine, QuickLooksAreTheGeneralOnes) {
+    for (int what = 0; what < 64; ++what) {
+        Scene scene = fieldScene("bucky", (what & 1) != 0 ? "peaks" : "smooth",
+                                 (what & 2) != 0 ? Mode::Standard : Mode::ScaleInvariant);
+        auto& shading = scene.settings.shading;
+        const bool lit = (what & 4) != 0;
+        shading.silhouette = (what & 8) != 0 || !lit;
+        shading.exponent = (what & 16) != 0 ? 12.5 : 32.0;
+        if (lit) {
+            shading.lights = {{glm::normalize(glm::dvec3(0.4, 0.8, 0.6))}, {glm::normalize(glm::dvec3(-1, 0.2, 0.1))}};
+            shading.transmission = (what & 8) != 0;
+        }
+        Camera camera = wholeView(*scene.mesh);
+        if ((what & 32) != 0) camera.orthographicHeight = 1.6 * scene.mesh->bounds.diagonal();
+        const ImageDifference difference =
+            compareImages(cpuImage(scene, camera), cpuImage(scene, camera, {.quickLooks = false}));
+        EXPECT_LE(difference.rmse, lookThreshold.rmse) << what;
+        EXPECT_LE(difference.max, lookThreshold.max) << what;
+        EXPECT_GT(difference.max, 0.0) << what << ": the same kernel drew both";
+    }
+}
+
 TEST(CpuEngine, RandomMeshesNeedNoCertificate) {
     for (unsigned seed = 1; seed <= 4; ++seed) {
         const auto holed = carved(jitteredBoxMesh(7, 0.25, seed, ramp), [](const glm::dvec3& p) {

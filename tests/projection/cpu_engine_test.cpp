@@ -195,7 +195,7 @@ TEST(CpuEngine, SilhouettesAndLight) {
 }
 
 // Float; where a ray grazes an isosurface 1/|n·d| carries the rounding of n·d a thousandfold.
-constexpr Threshold lookThreshold{1e-5, 1e-3};
+constexpr test::EngineThreshold lookThreshold{1e-5, 1e-3};
 
 TEST(CpuEngine, QuickLooksAreTheGeneralOnes) {
     for (int what = 0; what < 64; ++what) {

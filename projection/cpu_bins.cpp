@@ -20,7 +20,7 @@ void TileBins::reset(std::size_t chunks, int tilesX, int tilesY) {
     tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) { std::fill_n(counts(c), tiles_, 0u); });
 }
 
-void TileBins::fill(const std::vector<Survivor>& survivors, const std::vector<SurvivorChunk>& chunks, double nearest,
+void TileBins::fill(const Survivor* survivors, const std::vector<SurvivorChunk>& chunks, double nearest,
                     double farthest) {
     start_.resize(tiles_ + 1);
     tbb::parallel_for(std::size_t{0}, tiles_, [&](std::size_t tile) {

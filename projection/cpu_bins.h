@@ -24,8 +24,7 @@ public:
 
     /// Lists every survivor in each tile of its rectangle, as many as were counted, in the order of the chunks: the
     /// same for any number of threads. Keys become whole numbers that ascend from `nearest` down to `farthest`.
-    void fill(const std::vector<Survivor>& survivors, const std::vector<SurvivorChunk>& chunks, double nearest,
-              double farthest);
+    void fill(const Survivor* survivors, const std::vector<SurvivorChunk>& chunks, double nearest, double farthest);
 
     /// Sorts each tile's list by key; equal keys keep their order.
     void sort();

@@ -42,8 +42,9 @@ struct KeySource {
 
 /// What cullCells reads and where it writes.
 struct CullTask {
-    const mesh::CellIndex* visible;  ///< the cells that the transfer function shows; nullptr: all
-    std::size_t begin, end;          ///< of `visible`, or of all cells
+    const mesh::CellIndex* visible;  ///< the cells that the transfer function shows; nullptr: all, but for
+    const std::uint64_t* shown;      ///< one bit per cell, 1 where it shows; nullptr: all do
+    std::size_t begin, end;          ///< of `visible`, or of all cells; with `shown` begin is a multiple of 64
     KeySource keys;
     Survivor* survivors;  ///< room for end − begin
     int tilesX;

@@ -89,13 +89,16 @@ public:
         alignas(64) std::int32_t cells[mostLanes];
         for (std::size_t i = task_.begin; i < task_.end; i += lanes) {
             const std::size_t count = std::min(lanes, task_.end - i);
+            auto all = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
+            if (task_.shown) all &= static_cast<std::uint32_t>(task_.shown[i / 64] >> i % 64);
+            if (all == 0) continue;
             for (std::size_t j = 0; j < lanes; ++j) {
                 const std::size_t at = i + std::min(j, count - 1);
                 cells[j] = static_cast<std::int32_t>(task_.visible ? task_.visible[at] : at);
             }
             GroupBits bits = rectanglesOf(frame_, hn::Load(ints, cells), rectangles_);
-            const std::uint32_t all = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
-            addGroup({bits.seen & all, bits.outside & all, bits.atEye & all}, count, cells);
+            addGroup({bits.seen & all, bits.outside & all, bits.atEye & all},
+                     static_cast<std::size_t>(std::popcount(all)), cells);
         }
         return kept_;
     }

@@ -5,8 +5,13 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <optional>
+
+#ifdef __GLIBC__  // told by any header of the library's
+#include <malloc.h>
+#endif
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -37,6 +42,12 @@ double millisecondsSince(Clock::time_point start) {
 /// Rounding of nearness that the order check allows for, relative to the mesh's extent.
 constexpr double orderRounding = 1e-6;
 
+/// Bytes that malloc hands on without asking the system (glibc's DEFAULT_MMAP_THRESHOLD_MAX).
+constexpr std::size_t mostRecycled = std::size_t{32} << 20;
+
+/// Above this share of cells that show, those that do not are passed over by bits instead of left out of a list.
+constexpr double leastShareForBits = 0.8;
+
 /// Counts per chunk and tile are kept below this, and chunks above a size that is worth a task.
 constexpr std::size_t mostPlaces = std::size_t{1} << 20, leastChunk = 4096, usualChunk = 16384;
 
@@ -62,6 +73,13 @@ QuickLook quickLook(const shading::ShadingSettings& shading, const std::vector<s
     return quick;
 }
 
+/// What preparing took and freed goes back to the system: the frames' lists would lie beside it.
+void returnFreedMemory() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+}
+
 class CpuEngine final : public Engine {
 public:
     CpuEngine(const Scene& scene, const CpuSkips& skips)
@@ -79,7 +97,7 @@ public:
         checkPixelMaps(view);
         const Camera& camera = view.camera;
         const auto start = Clock::now();
-        Image image(camera.width, camera.height);
+        Image image;
         arena_.execute([&] {
             if (!(skips_.keepFrame && keptCamera_ == camera)) {
                 keptCamera_.reset();
@@ -87,6 +105,7 @@ public:
                 keptCamera_ = camera;
             }
             setLimits(view);
+            image = Image(camera.width, camera.height);  // only now: it takes the place of the survivors
             draw(image, report);
         });
         report.cellsSkipped = skipped_;
@@ -128,8 +147,9 @@ private:
 
     // of the scene
     std::vector<float> scalars_;
-    bool allVisible_ = true;
-    std::vector<mesh::CellIndex> visible_;
+    std::vector<mesh::CellIndex> visible_;  // the cells that show, where far from all do; else empty, and
+    std::vector<std::uint64_t> shown_;  // one bit per cell, empty where all show: an eighth of a byte instead of four
+    std::uint64_t invisible_ = 0;
     std::optional<CpuOrder> orderKeys_;
     std::shared_ptr<const shading::VertexLight> vertexLight_;
 
@@ -141,7 +161,8 @@ private:
     TileLimits limits_;
     bool limited_ = false;  // this frame takes drawLimitedTile
     int tilesX_ = 0, tilesY_ = 0;
-    std::vector<Survivor> survivors_;
+    std::unique_ptr<Survivor[]> survivors_;  // room for all candidates; memory is taken where some survive
+    std::size_t survivorRoom_ = 0;
     std::vector<SurvivorChunk> chunks_;
     TileBins bins_;
     std::vector<std::uint32_t> tilesByWork_;
@@ -212,6 +233,7 @@ void CpuEngine::prepare() {
     const auto orderStart = Clock::now();
     orderKeys_.emplace(mesh_, scene_.settings.order);
     prepareMilliseconds_["order"] = millisecondsSince(orderStart);
+    returnFreedMemory();
 }
 
 /// Which cells the transfer function shows: asked once, since it depends on no camera.
@@ -229,8 +251,13 @@ void CpuEngine::findVisibleCells() {
         }
     });
     const auto count = static_cast<std::size_t>(std::count(shows.begin(), shows.end(), std::uint8_t{1}));
-    allVisible_ = count == shows.size();
-    if (allVisible_) return;
+    invisible_ = shows.size() - count;
+    if (invisible_ == 0) return;
+    if (static_cast<double>(count) > leastShareForBits * static_cast<double>(shows.size())) {
+        shown_.resize((shows.size() + 63) / 64);
+        for (std::size_t i = 0; i < shows.size(); ++i) shown_[i / 64] |= std::uint64_t{shows[i]} << i % 64;
+        return;
+    }
     visible_.reserve(count);
     for (std::size_t i = 0; i < shows.size(); ++i)
         if (shows[i]) visible_.push_back(static_cast<mesh::CellIndex>(i));
@@ -297,7 +324,11 @@ void CpuEngine::makeLists(const Camera& camera, FrameReport& report) {
     }
     const CullCounts counts = cull();
     finish("cull");
-    bins_.fill(survivors_, chunks_, counts.nearest, counts.farthest);
+    bins_.fill(survivors_.get(), chunks_, counts.nearest, counts.farthest);
+    if (survivorRoom_ * sizeof(Survivor) <= mostRecycled) {
+        survivors_.reset();
+        survivorRoom_ = 0;
+    }
     sortTilesByWork();
     finish("bin");
     if (orderKeys_) {
@@ -308,22 +339,30 @@ void CpuEngine::makeLists(const Camera& camera, FrameReport& report) {
 }
 
 CullCounts CpuEngine::cull() {
-    const std::size_t candidates = allVisible_ ? mesh_.cells.size() : visible_.size();
+    const bool listed = invisible_ > 0 && shown_.empty();
+    const std::size_t candidates = listed ? visible_.size() : mesh_.cells.size();
     const std::size_t tiles = static_cast<std::size_t>(tilesX_) * static_cast<std::size_t>(tilesY_);
-    const std::size_t chunkSize =
+    const std::size_t wanted =
         std::max({leastChunk, std::min(usualChunk, candidates / 64), candidates * tiles / mostPlaces + 1});
+    const std::size_t chunkSize = (wanted + 63) / 64 * 64;  // whole words of shown_
     const std::size_t chunkCount = (candidates + chunkSize - 1) / chunkSize;
-    survivors_.resize(candidates);
+    if (survivorRoom_ < candidates) {
+        // no smaller than the picture, so that malloc gives the picture the same pages (makeLists lets go of them)
+        const std::size_t pictureBytes = sizeof(glm::vec4) * tiles * cpuTileSize * cpuTileSize;
+        survivorRoom_ = std::max(candidates, pictureBytes / sizeof(Survivor) + 1);
+        survivors_ = std::make_unique_for_overwrite<Survivor[]>(survivorRoom_);
+    }
     chunks_.resize(chunkCount);
     bins_.reset(chunkCount, tilesX_, tilesY_);
     std::vector<CullCounts> counts(chunkCount);
     tbb::parallel_for(std::size_t{0}, chunkCount, [&](std::size_t c) {
         const std::size_t begin = c * chunkSize, end = std::min(candidates, begin + chunkSize);
-        const CullTask task{allVisible_ ? nullptr : visible_.data(),
+        const CullTask task{listed ? visible_.data() : nullptr,
+                            shown_.empty() ? nullptr : shown_.data(),
                             begin,
                             end,
                             order_.keys,
-                            survivors_.data() + begin,
+                            survivors_.get() + begin,
                             tilesX_,
                             bins_.counts(c)};
         chunks_[c] = {begin, cullCells(frame_, task, counts[c])};
@@ -343,7 +382,7 @@ CullCounts CpuEngine::cull() {
     };
     skip(SkipReason::OutsideView, sum.outsideView);
     skip(SkipReason::NoPixelCentre, sum.noPixelCentre);
-    skip(SkipReason::Invisible, mesh_.cells.size() - candidates);
+    skip(SkipReason::Invisible, invisible_);
     return sum;
 }
 

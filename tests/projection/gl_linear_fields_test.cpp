@@ -17,17 +17,15 @@ class GlLinearFields : public testing::TestWithParam<const char*> {};
 TEST_P(GlLinearFields, CellsAreNotSeen) {
     const Image plain = referenceOf(plainLinearScene());
     for (const LinearFieldCase& each : linearFieldCases()) {
-        if (each.name.find("_warped") == std::string::npos) continue;  // the harder half
+        const bool bent = each.name.find("_warped") != std::string::npos;
+        if (!bent && GetParam() == std::string("osmesa")) continue;  // once is enough of the easier half
         SCOPED_TRACE(each.name);
-        Scene scene = linearFieldScene(each.soup);
-        scene.settings.table.wantedError =
-            1e-5;  // so that the error of the table, per segment, is none of the picture's
         FrameReport report;
-        const Image image = makeEngine(scene, {"gl", GetParam()})->render(linearFieldCamera(), report);
+        const Image image =
+            makeEngine(linearFieldScene(each.soup), {"gl", GetParam()})->render(linearFieldCamera(), report);
         const ImageDifference difference = compareImages(image, plain);
-        EXPECT_LE(difference.rmse, 5e-5);  // 2e-5 seen
-        // One pixel at the rim of the cube is 1.8e-4 off, the same one for all cells: the engine's, not theirs.
-        EXPECT_LE(difference.max, 3e-4);
+        EXPECT_LE(difference.rmse, 1e-5);  // 2.9e-6 seen
+        EXPECT_LE(difference.max, 1e-4);   // 2.4e-5 seen: floats, at the rim of the cube
     }
 }
 

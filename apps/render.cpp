@@ -67,6 +67,8 @@ void tellPreview(const std::string& path, const RenderOptions& options, const pr
 void tell(const RenderOptions& options, const std::vector<std::string>& paths, const SceneRenderer& renderer) {
     const RenderRecord& record = renderer.record();
     for (const std::string& line : defectLines(record.mesh)) fmt::print("{}: {}\n", options.source, line);
+    if (!record.interfacesChecked)
+        fmt::print("{}: not checked whether cells overlap or do not fit together; --check does it\n", options.source);
     for (const auto& [reason, count] : record.mesh.skipped)
         if (reason.starts_with("not solid")) fmt::print("{}: left out: {} {}\n", options.source, count, reason);
     if (record.verification)

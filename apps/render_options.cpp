@@ -26,6 +26,8 @@ void addMeshOptions(CLI::App& command, RenderOptions& options) {
     command.add_option("--scalar", options.scalar,
                        "field to show: NAME (vectors by magnitude) or NAME:x (a component)");
     addReadOptions(command, options.read);
+    command.add_flag("--check", options.checkInterfaces,
+                     "also of meshes of millions of cells: tell whether cells overlap or do not fit together");
 }
 
 glm::dvec2 parseWindow(const std::string& option, const std::string& text) {

@@ -26,6 +26,7 @@ struct RenderOptions {
     std::string source;  ///< mesh file or generated field
     std::string scalar;  ///< empty: the first field
     mesh::ReadOptions read;
+    bool checkInterfaces = false;      ///< also where it takes long: whether cells overlap or do not fit together
     std::string transferFunction;      ///< file or preset; empty: the default
     std::optional<glm::dvec2> window;  ///< scalars over which the transfer function is stretched: centre, width
     projection::RenderSettings settings;

@@ -38,7 +38,9 @@ json skippedCells(const RenderRecord& record, const FrameReport& first) {
 
 /// Wall times of every frame, whole and by stage; a frame without a stage has 0 there.
 json timesJson(const RenderRecord& record, const projection::Engine& engine) {
-    json times = {{"read", record.readMilliseconds}, {"prepare", record.prepareMilliseconds}};
+    json times = {{"read", record.readMilliseconds},
+                  {"check", record.checkMilliseconds},
+                  {"prepare", record.prepareMilliseconds}};
     for (const auto& [stage, milliseconds] : engine.prepareMilliseconds()) times["prepare " + stage] = milliseconds;
     json frame = json::array();
     std::map<std::string, std::vector<double>> stages;
@@ -126,6 +128,7 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
           {"skipped", skippedCells(record, first)}}},
         {"points_merged", record.mesh.pointsMerged},
         {"defects", defectsJson(record.mesh)},
+        {"interfaces_checked", record.interfacesChecked},
         {"order",
          {{"method", first.orderMethod},
           {"sorted", first.cellsSorted},

@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include <apps/stopwatch.h>
+#include <mesh/interface_checks.h>
 #include <mesh/read_mesh.h>
 #include <mesh/volume_samples.h>
 #include <preint/equidistant_isosurfaces.h>
@@ -157,6 +158,7 @@ void SceneRenderer::readScene(const RenderOptions& options) {
         throw std::runtime_error(fmt::format("{}: {}", options.source, error.what()));
     }
     record_.readMilliseconds = watch.milliseconds();
+    checkInterfaces(options.checkInterfaces);
 
     record_.scalarMin = scene_.mesh->scalarMin;
     record_.scalarMax = scene_.mesh->scalarMax;
@@ -178,6 +180,19 @@ void SceneRenderer::readScene(const RenderOptions& options) {
     if (!options.shape.clips.empty())
         scene_.mapSources.push_back(std::make_shared<projection::ClipRegion>(options.shape.clips));
     if (!opaque.empty()) scene_.mapSources.push_back(std::make_shared<const projection::OpaqueLayer>(scene_, opaque));
+}
+
+/// Up to so many tetrahedra and boundary faces it takes some 30 ms.
+void SceneRenderer::checkInterfaces(bool always) {
+    constexpr std::size_t mostCells = 250'000, mostBoundaryFaces = 100'000;
+    const mesh::ScalarMesh& cells = *scene_.mesh;
+    if (!always && cells.cells.size() > mostCells) return;
+    const Stopwatch watch;
+    const mesh::Adjacency adjacency = mesh::buildAdjacency(cells.cells, cells.positions.size());
+    if (!always && adjacency.boundaryFaces > mostBoundaryFaces) return;
+    record_.mesh.defects.merge(mesh::interfaceDefects(cells.positions, cells.cells, adjacency));
+    record_.interfacesChecked = true;
+    record_.checkMilliseconds = watch.milliseconds();
 }
 
 /// Keeps what was found in the frame that may be farthest from the truth.

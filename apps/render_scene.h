@@ -25,8 +25,10 @@ struct RenderRecord {
     double scalarMin = 0.0, scalarMax = 0.0;
     std::uint64_t tetrahedra = 0;
     mesh::MeshReport mesh;
-    projection::Camera camera;  ///< of the first frame
+    bool interfacesChecked = false;  ///< whether `mesh` says so if cells overlap or do not fit together
+    projection::Camera camera;       ///< of the first frame
     double readMilliseconds = 0.0;
+    double checkMilliseconds = 0.0;
     double prepareMilliseconds = 0.0;
     std::vector<projection::FrameReport> frames;
     std::optional<projection::Verification> verification;  ///< of the frame with the largest bound, if asked for
@@ -51,6 +53,7 @@ public:
 
 private:
     void readScene(const RenderOptions& options);
+    void checkInterfaces(bool always);
     void verify(const projection::Image& image, const projection::View& view);
 
     /// With annotation and background.

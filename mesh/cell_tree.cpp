@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <mesh/cell_tree.h>
 
+#include <limits>
 #include <numeric>
 
 #include <glm/common.hpp>
@@ -11,9 +12,9 @@ namespace {
 constexpr std::uint32_t leafCells = 4;
 }
 
-CellTree::CellTree(const std::vector<glm::dvec3>& positions, const std::vector<Tetrahedron>& cells)
-    : order_(cells.size()) {
+CellTree::CellTree(const std::vector<glm::dvec3>& positions, const std::vector<Tetrahedron>& cells) {
     if (cells.empty()) return;
+    order_.resize(cells.size());
     std::iota(order_.begin(), order_.end(), CellIndex{0});
     std::vector<glm::dvec3> centres(cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i)

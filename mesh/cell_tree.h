@@ -1,84 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <limits>
-#include <vector>
-
-#include <glm/vec3.hpp>
-
+#include <mesh/box_tree.h>
 #include <mesh/tet_mesh.h>
 
 namespace tetralux::mesh {
 
-/// Cells in a tree of bounding boxes: those near a point, those along a line. Visits come in an order that depends on
-/// the mesh alone.
-class CellTree {
+/// Tetrahedra in a tree of bounding boxes.
+class CellTree : public BoxTree {
 public:
     CellTree(const std::vector<glm::dvec3>& positions, const std::vector<Tetrahedron>& cells);
-
-    /// Calls `visit(cell)` for every cell whose bounding box comes within `reach` of `x`.
-    template <class Visit>
-    void forEachNear(const glm::dvec3& x, double reach, const Visit& visit) const {
-        walk(
-            [&](const Node& node) {
-                double square = 0;
-                for (int axis = 0; axis < 3; ++axis) {
-                    const double beside = std::max({node.low[axis] - x[axis], x[axis] - node.high[axis], 0.0});
-                    square += beside * beside;
-                }
-                return square <= reach * reach;
-            },
-            visit);
-    }
-
-    /// Calls `visit(cell)` for every cell whose bounding box the line origin + t·direction meets at 0 ≤ t ≤ `end`. No
-    /// component of `direction` may be zero.
-    template <class Visit>
-    void forEachAlong(const glm::dvec3& origin, const glm::dvec3& direction, double end, const Visit& visit) const {
-        const glm::dvec3 inverse = 1.0 / direction;
-        walk(
-            [&](const Node& node) {
-                double in = 0, out = end;
-                for (int axis = 0; axis < 3; ++axis) {
-                    const double a = (node.low[axis] - origin[axis]) * inverse[axis];
-                    const double b = (node.high[axis] - origin[axis]) * inverse[axis];
-                    in = std::max(in, std::min(a, b));
-                    out = std::min(out, std::max(a, b));
-                }
-                return in <= out;
-            },
-            visit);
-    }
-
-private:
-    struct Node {
-        glm::dvec3 low, high;
-        std::uint32_t first;  ///< child (and the next one), or place in order_ for a leaf
-        std::uint32_t count;  ///< cells of a leaf, 0 for others
-    };
-
-    template <class Meets, class Visit>
-    void walk(const Meets& meets, const Visit& visit) const {
-        std::array<std::uint32_t, 128> open;
-        std::size_t count = 0;
-        if (!nodes_.empty()) open[count++] = 0;
-        while (count > 0) {
-            const Node& node = nodes_[open[--count]];
-            if (!meets(node)) continue;
-            if (node.count > 0) {
-                for (std::uint32_t i = 0; i < node.count; ++i) visit(order_[node.first + i]);
-            } else {
-                open[count++] = node.first;
-                open[count++] = node.first + 1;
-            }
-        }
-    }
-
-    std::vector<Node> nodes_;
-    std::vector<CellIndex> order_;
 };
 
 }  // namespace tetralux::mesh

@@ -31,8 +31,8 @@ std::string defectName(Defect defect) {
             return "unsupported cell";
         case Defect::FoldedCell:
             return "folded cell";
-        case Defect::OverlappingCells:
-            return "overlapping cells";
+        case Defect::OverlappingCell:
+            return "overlapping cell";
     }
     return "unnamed defect";
 }

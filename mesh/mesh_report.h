@@ -23,8 +23,8 @@ enum class Defect {
     CoincidentPoint,
     HiddenCell,
     UnsupportedCell,
-    FoldedCell,        ///< part of it lies inside out
-    OverlappingCells,  ///< two cells on the same side of their shared face
+    FoldedCell,       ///< part of it lies inside out
+    OverlappingCell,  ///< it and another are in one place
 };
 
 std::string defectName(Defect defect);

@@ -12,8 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include <mesh/adjacency.h>
-#include <mesh/point_face_search.h>
-#include <mesh/shared_mark.h>
+#include <mesh/interface_checks.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -167,79 +166,6 @@ void countComponents(const Adjacency& adjacency, MeshStatistics& result) {
     }
 }
 
-/// Faces without a neighbour, as triangles seen from outside and with the cell of each.
-struct BoundaryFaces {
-    std::vector<PointFaceSearch::Corners> triangles;
-    std::vector<CellIndex> cells;
-};
-
-BoundaryFaces collectBoundary(const TetMesh& mesh, const Adjacency& adjacency) {
-    BoundaryFaces faces;
-    for (CellIndex cell = 0; cell < mesh.cells.size(); ++cell) {
-        for (std::size_t k = 0; k < 4; ++k) {
-            if (adjacency.neighbours[cell][k] == Adjacency::noNeighbour) {
-                PointFaceSearch::Corners corners;
-                for (std::size_t v = 0; v < 3; ++v) {
-                    corners[v] = mesh.positions[mesh.cells[cell][static_cast<std::size_t>(faceVertices[k][v])]];
-                }
-                faces.triangles.push_back(corners);
-                faces.cells.push_back(cell);
-            }
-        }
-    }
-    return faces;
-}
-
-double longestEdge(const PointFaceSearch::Corners& t) {
-    return std::max({glm::distance(t[0], t[1]), glm::distance(t[1], t[2]), glm::distance(t[2], t[0])});
-}
-
-/// Whether `x` lies in the inner part of triangle `t`, at most `reach` off its plane.
-bool liesOn(const glm::dvec3& x, const PointFaceSearch::Corners& t, double reach) {
-    const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
-    const double area = glm::dot(normal, normal);
-    if (!(area > 0.0) || std::abs(glm::dot(x - t[0], normal)) > reach * std::sqrt(area)) {
-        return false;
-    }
-    constexpr double inner = 1e-3;  // barycentric: a point on an edge touches the face but does not lie on it
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (glm::dot(glm::cross(t[(k + 1) % 3] - x, t[(k + 2) % 3] - x), normal) < inner * area) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/// Boundary faces that another boundary face lies against from the other side, found by their centroids: the two do not
-/// have the same points, or adjacency would have joined them.
-void findNonConforming(const BoundaryFaces& faces, MeshStatistics& result) {
-    const PointFaceSearch search(faces.triangles);
-    const double scale = std::max({glm::length(result.bounds.low), glm::length(result.bounds.high)});
-    std::vector<std::uint8_t> marked(faces.triangles.size(), 0);
-    tbb::parallel_for(std::size_t{0}, faces.triangles.size(), [&](std::size_t i) {
-        const PointFaceSearch::Corners& face = faces.triangles[i];
-        const glm::dvec3 normal = glm::cross(face[1] - face[0], face[2] - face[0]);
-        const glm::dvec3 centroid = (face[0] + face[1] + face[2]) / 3.0;
-        const double edge = longestEdge(face);
-        const double reach = std::min(1e-3 * edge, 1e-6 * edge + 1e-7 * scale);  // positions may have been floats
-        search.forEachNear(centroid, reach, [&](std::uint32_t other) {
-            const PointFaceSearch::Corners& t = faces.triangles[other];
-            if (other != i && glm::dot(normal, glm::cross(t[1] - t[0], t[2] - t[0])) < 0.0 &&
-                liesOn(centroid, t, reach)) {
-                setMark(marked[i]);
-                setMark(marked[other]);
-            }
-        });
-    });
-    MeshReport report;
-    for (std::size_t i = 0; i < marked.size(); ++i) {
-        if (marked[i] != 0) {
-            report.add(Defect::NonConformingInterface, faces.cells[i]);
-        }
-    }
-    result.defects.merge(report.defects);
-}
-
 std::uint64_t memoryOf(const TetMesh& mesh) {
     std::uint64_t bytes = mesh.positions.capacity() * sizeof(glm::dvec3) + mesh.cells.capacity() * sizeof(Tetrahedron);
     for (const Field& field : mesh.fields) {
@@ -273,15 +199,9 @@ MeshStatistics meshStatistics(const TetMesh& mesh) {
             static_cast<std::uint64_t>(4 - std::count(neighbours.begin(), neighbours.end(), Adjacency::noNeighbour));
     }
     result.innerFaces /= 2;
-    if (adjacency.nonManifoldFaces > 0) {
-        result.defects[Defect::NonManifoldFace].count = adjacency.nonManifoldFaces;
-    }
-    if (adjacency.foldedFaces > 0) {
-        result.defects[Defect::OverlappingCells].count = adjacency.foldedFaces;
-    }
     result.delaunayFaces = countDelaunayFaces(mesh, adjacency);
     countComponents(adjacency, result);
-    findNonConforming(collectBoundary(mesh, adjacency), result);
+    result.defects = interfaceDefects(mesh.positions, mesh.cells, adjacency);
     return result;
 }
 

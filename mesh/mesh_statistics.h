@@ -35,8 +35,7 @@ struct MeshStatistics {
     std::uint64_t delaunayFaces = 0;  ///< inner faces with neither opposite point inside the other cell's circumsphere
     std::uint64_t components = 0;     ///< sets of cells connected through faces
     std::uint64_t largestComponent = 0;  ///< its cells
-    /// Non-manifold faces, overlapping cells, and boundary faces that lie against another boundary face without being
-    /// the same (hanging nodes, quadrilaterals cut along different diagonals); places are cells of the mesh.
+    /// By `interface_checks.h`; places are cells of the mesh.
     std::map<Defect, DefectCount> defects;
     std::uint64_t memoryBytes = 0;  ///< of the mesh's arrays
     std::vector<FieldStatistics> fields;

@@ -67,6 +67,28 @@ TEST_F(RenderCommand, DefectiveCellsAreLeftOutOrTurnedAndCounted) {
     EXPECT_NE(outcome.out.find("non-finite scalar"), std::string::npos) << outcome.out;
 }
 
+TEST_F(RenderCommand, CellsThatOverlapAreReported) {
+    TinyMesh mesh = cornerTetrahedron(5);
+    const TinyMesh other = mesh;
+    for (const auto& [x, y, z] : other.points) mesh.points.push_back({x + 0.1, y + 0.1, z + 0.1});
+    mesh.values.insert(mesh.values.end(), other.values.begin(), other.values.end());
+    mesh.cells.push_back({4, 5, 6, 7});
+    write("overlap.vtu", vtuText(mesh));
+    const Outcome outcome = tetralux("render overlap.vtu -o a.exr --size 8x8 --report r.json");
+    EXPECT_NE(outcome.out.find("2 overlapping cells (the first: 0, 1)"), std::string::npos) << outcome.out;
+    const nlohmann::json report = json("r.json");
+    EXPECT_EQ(report["defects"]["overlapping cell"]["count"], 2);
+    EXPECT_EQ(report["interfaces_checked"], true);
+}
+
+TEST_F(RenderCommand, LargeMeshesAreCheckedForOverlapsWhenAsked) {
+    const std::string render = "render bucky:40 -o a.png --size 8x8 --report r.json";
+    EXPECT_NE(tetralux(render).out.find("--check does it"), std::string::npos);
+    EXPECT_EQ(json("r.json")["interfaces_checked"], false);
+    EXPECT_EQ(tetralux(render + " --check").out.find("--check does it"), std::string::npos);
+    EXPECT_EQ(json("r.json")["interfaces_checked"], true);
+}
+
 TEST_F(RenderCommand, ReportHoldsWhatIsPromised) {
     expectGood(
         "render bucky:6 -o a.png --size 20x10 --frames 3 --report r.json --engine reference --mode scale-invariant");

@@ -54,6 +54,58 @@ TEST(MeshStatistics, ComponentsAndHangingNodes) {
     EXPECT_EQ(s.defects.at(Defect::NonConformingInterface).count, 10u);
 }
 
+/// A cube of 5 tetrahedra and, moved by `shift` and scaled, another; they share no points.
+TetMesh twoCubes(const glm::dvec3& shift, double scale) {
+    TetMesh mesh = sampleOnGrid(proceduralField("coulomb", 2), 2);
+    const TetMesh other = mesh;
+    for (const glm::dvec3& x : other.positions) {
+        mesh.positions.push_back(scale * x + shift);
+    }
+    for (const Tetrahedron& cell : other.cells) {
+        mesh.cells.push_back({cell[0] + 8, cell[1] + 8, cell[2] + 8, cell[3] + 8});
+    }
+    mesh.fields.clear();
+    return mesh;
+}
+
+TEST(MeshStatistics, CellsThatOverlapAreFound) {
+    // Corner in corner: only the boundaries cross. The tetrahedra at the two corners are among those named.
+    const auto crossing = meshStatistics(twoCubes({0.7, 0.8, 0.9}, 1.0)).defects;
+    ASSERT_EQ(crossing.size(), 1u);
+    EXPECT_GE(crossing.at(Defect::OverlappingCell).count, 2u);
+    EXPECT_LE(crossing.at(Defect::OverlappingCell).count, 10u);
+    // One within the other: no faces cross.
+    const auto enclosed = meshStatistics(twoCubes({0.3, 0.35, 0.41}, 0.2)).defects;
+    ASSERT_EQ(enclosed.size(), 1u);
+    EXPECT_EQ(enclosed.at(Defect::OverlappingCell).count, 1u);
+    EXPECT_GE(enclosed.at(Defect::OverlappingCell).firstOffenders.at(0), 5u);
+    // Two that go through each other like a cross, with no corner of one inside the other.
+    TetMesh cross = twoCubes({0.3, 0.3, -0.5}, 1.0);
+    for (std::size_t p = 8; p < 16; ++p) {
+        cross.positions[p] = {0.3 + 0.4 * (cross.positions[p].x - 0.3), 0.3 + 0.4 * (cross.positions[p].y - 0.3),
+                              -0.5 + 2.0 * (cross.positions[p].z + 0.5)};
+    }
+    EXPECT_GE(meshStatistics(cross).defects.at(Defect::OverlappingCell).count, 2u);
+    // Folded: two cells on the same side of a face.
+    TetMesh folded = sampleOnGrid(proceduralField("coulomb", 2), 2);
+    folded.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.2, 0.2, 1}, {0.3, 0.2, 2}};
+    folded.cells = {{0, 1, 2, 3}, {0, 1, 2, 4}};
+    folded.fields.clear();
+    EXPECT_EQ(meshStatistics(folded).defects.at(Defect::OverlappingCell).firstOffenders,
+              (std::vector<std::uint64_t>{0, 1}));
+}
+
+TEST(MeshStatistics, CellsThatTouchDoNotOverlap) {
+    for (const glm::dvec3& shift :
+         {glm::dvec3(1, 0, 0), glm::dvec3(1, 0.3, 0.2), glm::dvec3(1, 1, 0.4), glm::dvec3(1, 1, 1), glm::dvec3(2, 0, 0),
+          glm::dvec3(1.0 - 1e-8, 0.3, 0.2), glm::dvec3(0.6, 1.0, 0.5)}) {
+        for (const double scale : {1.0, 0.5, 3.0}) {
+            EXPECT_FALSE(meshStatistics(twoCubes(shift, scale)).defects.contains(Defect::OverlappingCell))
+                << shift.x << ' ' << shift.y << ' ' << shift.z << " times " << scale;
+        }
+    }
+}
+
 TEST(MeshStatistics, BlocksThatOnlyTouchAlongAnEdgeConform) {
     TetMesh mesh = sampleOnGrid(proceduralField("coulomb", 2), 2);
     const PointIndex shift = static_cast<PointIndex>(mesh.positions.size());

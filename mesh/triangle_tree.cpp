@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <mesh/point_face_search.h>
+#include <mesh/triangle_tree.h>
 
 #include <algorithm>
 #include <numeric>
@@ -9,11 +9,12 @@
 namespace tetralux::mesh {
 namespace {
 
-constexpr std::uint32_t leafSize = 8;
+constexpr std::uint32_t leafSize = 4;
 
 }  // namespace
 
-PointFaceSearch::PointFaceSearch(const std::vector<Corners>& triangles) : order_(triangles.size()) {
+TriangleTree::TriangleTree(const std::vector<Corners>& triangles) {
+    order_.resize(triangles.size());
     std::iota(order_.begin(), order_.end(), 0u);
     if (!triangles.empty()) {
         nodes_.reserve(2 * triangles.size() / leafSize + 16);
@@ -23,8 +24,8 @@ PointFaceSearch::PointFaceSearch(const std::vector<Corners>& triangles) : order_
 }
 
 /// Halves at the median along the longest side, so the depth stays below the logarithm of the number of triangles.
-void PointFaceSearch::build(std::uint32_t node, std::uint32_t first, std::uint32_t count,
-                            const std::vector<Corners>& triangles) {
+void TriangleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count,
+                         const std::vector<Corners>& triangles) {
     glm::dvec3 low = triangles[order_[first]][0];
     glm::dvec3 high = low;
     for (std::uint32_t i = first; i < first + count; ++i) {

@@ -20,6 +20,7 @@ struct MeshFormat {
 
 extern const MeshFormat vtkXmlFormat;
 extern const MeshFormat legacyVtkFormat;
+extern const MeshFormat vtkHdfFormat;
 extern const MeshFormat pvdFormat;
 extern const MeshFormat exodusFormat;
 extern const MeshFormat cgnsFormat;

@@ -17,8 +17,9 @@ namespace {
 
 // One line per format; the first that accepts a source reads it.
 const std::array formats{
-    &vtkXmlFormat, &legacyVtkFormat, &pvdFormat,   &exodusFormat, &cgnsFormat, &ensightFormat, &openFoamFormat,
-    &ucdFormat,    &fluentFormat,    &imageFormat, &rawFormat,    &gmshFormat, &meditFormat,   &tetgenFormat,
+    &vtkXmlFormat, &legacyVtkFormat, &vtkHdfFormat,   &pvdFormat,   &exodusFormat,
+    &cgnsFormat,   &ensightFormat,   &openFoamFormat, &ucdFormat,   &fluentFormat,
+    &imageFormat,  &rawFormat,       &gmshFormat,     &meditFormat, &tetgenFormat,
 };
 
 struct OtherKind {
@@ -32,7 +33,7 @@ const std::array otherKinds{
     OtherKind{{".csv", ".xyz"}, "holds points; make tetrahedra of them with `tetralux mesh`"},
     OtherKind{{".sol"}, "holds the values of a MEDIT mesh; give the .mesh beside it"},
     OtherKind{{".face", ".edge", ".neigh", ".poly", ".smesh"}, "is no mesh by itself; give TetGen's .ele or .node"},
-    OtherKind{{".vtkhdf", ".hdf", ".hdf5", ".h5", ".xdmf", ".xmf"},
+    OtherKind{{".hdf", ".hdf5", ".h5", ".xdmf", ".xmf"},
               "is HDF5 of a kind that is not read; save it as .vtu in ParaView"},
     OtherKind{{".med", ".unv", ".bdf", ".nas"}, "is not read; convert it to Gmsh's .msh or to .vtu (Gmsh, meshio)"},
     OtherKind{{".plt", ".szplt", ".tec", ".k", ".d3plot", ".rst", ".odb", ".post", ".fsdb"},

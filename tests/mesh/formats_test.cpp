@@ -48,6 +48,34 @@ TEST(Formats, DamagedCopiesAreReadOrRefused) {
     }
 }
 
+/// Two cubes in a row, x + 2 y + 3 z on points and 5, 7 on cells: the smallest file that HDF5 1.10 writes of them.
+TEST(Formats, VtkHdf) {
+    const std::filesystem::path whole = std::filesystem::path(TETRALUX_TEST_DATA) / "cubes.vtkhdf";
+    const ReadResult result = readMesh(whole.string());
+    EXPECT_TRUE(result.report.defects.empty());
+    EXPECT_EQ(result.report.cellTypes.at("hexahedron"), 2u);
+    EXPECT_NEAR(totalVolume(result.mesh), 2.0, 1e-14);
+    ASSERT_EQ(result.mesh.fields.size(), 2u);
+    for (const Field& field : result.mesh.fields) {
+        for (std::size_t i = 0; i < field.values.size(); ++i) {
+            if (field.association == Association::Point) {
+                const glm::dvec3 x = result.mesh.positions[i];
+                EXPECT_NEAR(field.values[i], x.x + 2.0 * x.y + 3.0 * x.z, 1e-14);
+            } else {
+                EXPECT_EQ(field.values[i], i < 6 ? 5.0 : 7.0);
+            }
+        }
+    }
+    const TemporaryFolder folder;
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        for (const Damage damage : damages) {
+            writeFile(folder.file("a.vtkhdf"), damagedCopy(wholeFile(whole), damage, seed));
+            const ReadingEnd end = readAll(folder.file("a.vtkhdf"));
+            EXPECT_TRUE(end == ReadingEnd::Mesh || end == ReadingEnd::Refusal) << damageName(damage) << ' ' << seed;
+        }
+    }
+}
+
 TEST(Formats, WhatIsNotReadSaysWhatToDo) {
     const TemporaryFolder folder;
     const auto reading = [&](const std::string& name, const std::string& content) {
@@ -56,7 +84,8 @@ TEST(Formats, WhatIsNotReadSaysWhatToDo) {
     expectError(reading("a.stl", "solid"), "a.stl: is a surface; make tetrahedra of it with `tetralux mesh`");
     expectError(reading("a.csv", "x,y,z"), "a.csv: holds points; make tetrahedra");
     expectError(reading("a.sol", "x"), "a.sol: holds the values of a MEDIT mesh; give the .mesh");
-    expectError(reading("a.vtkhdf", "x"), "a.vtkhdf: is HDF5");
+    expectError(reading("a.h5", "x"), "a.h5: is HDF5");
+    expectError(reading("a.vtkhdf", "x"), "a.vtkhdf: does not begin as a VTKHDF file");
     expectError(reading("a.inp", "*HEADING\n*NODE\n"), "a.inp: is a file of Abaqus");
     expectError(reading("a.msh", "(0 \"Fluent\")\n"), "is a mesh of ANSYS Fluent");
     expectError(reading("a.cas", "no parenthesis"), "a.cas: does not begin as a case of ANSYS Fluent");

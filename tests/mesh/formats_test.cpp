@@ -76,6 +76,33 @@ TEST(Formats, VtkHdf) {
     }
 }
 
+/// A cube of two cells along each edge, one of which is refined once more: it is hidden under its eight.
+TEST(Formats, RefinedCellsOfAmrAreNotDrawnTwice) {
+    const TemporaryFolder folder;
+    const auto image = [&](const std::string& name, double spacing) {
+        folder.write(name,
+                     fmt::format("<VTKFile type=\"ImageData\" version=\"2.2\"><ImageData WholeExtent=\"0 2 0 2 0 2\" "
+                                 "Origin=\"0 0 0\" Spacing=\"{0} {0} {0}\"><Piece Extent=\"0 2 0 2 0 2\"><CellData>"
+                                 "<DataArray type=\"Float64\" Name=\"c\" format=\"ascii\">1 2 3 4 5 6 7 8</DataArray>"
+                                 "</CellData></Piece></ImageData></VTKFile>",
+                                 spacing));
+    };
+    image("coarse.vti", 1.0);
+    image("fine.vti", 0.5);
+    const std::string amr = folder.write("a.vth",
+                                         "<VTKFile type=\"vtkOverlappingAMR\" version=\"1.1\"><vtkOverlappingAMR "
+                                         "origin=\"0 0 0\" grid_description=\"XYZ\">"
+                                         "<Block level=\"0\" spacing=\"1 1 1\"><DataSet index=\"0\" amr_box=\"0 1 0 1 "
+                                         "0 1\" file=\"coarse.vti\"/></Block>"
+                                         "<Block level=\"1\" spacing=\"0.5 0.5 0.5\"><DataSet index=\"0\" amr_box=\"0 "
+                                         "1 0 1 0 1\" file=\"fine.vti\"/></Block>"
+                                         "</vtkOverlappingAMR></VTKFile>");
+    const ReadResult result = readMesh(amr);
+    EXPECT_EQ(countOf(result.report, Defect::HiddenCell), 1u);
+    EXPECT_EQ(result.report.cellTypes.at("voxel"), 16u);
+    EXPECT_NEAR(totalVolume(result.mesh), 8.0, 1e-12);
+}
+
 TEST(Formats, WhatIsNotReadSaysWhatToDo) {
     const TemporaryFolder folder;
     const auto reading = [&](const std::string& name, const std::string& content) {

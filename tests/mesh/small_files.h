@@ -46,6 +46,17 @@ inline std::vector<SmallMesh> smallMeshes() {
     return {
         {"a.vtu", {{"a.vtu", smallVtu()}}},
         {"a.pvd", {{"a.pvd", series}, {"a.vtu", smallVtu()}}},
+        {"a.vtpd",
+         {{"a.vtpd",
+           "<VTKFile type=\"vtkPartitionedDataSet\" version=\"1.0\"><vtkPartitionedDataSet><DataSet index=\"0\" "
+           "file=\"a.vtu\"/></vtkPartitionedDataSet></VTKFile>"},
+          {"a.vtu", smallVtu()}}},
+        {"a.vtpc",
+         {{"a.vtpc",
+           "<VTKFile type=\"vtkPartitionedDataSetCollection\" version=\"1.0\"><vtkPartitionedDataSetCollection>"
+           "<Partitions index=\"0\"><DataSet index=\"0\" file=\"a.vtu\"/></Partitions>"
+           "</vtkPartitionedDataSetCollection></VTKFile>"},
+          {"a.vtu", smallVtu()}}},
         {"a.vtk",
          {{"a.vtk",
            "# vtk DataFile Version 3.0\nsmall\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n0 0 0 1 0 0 0 1 0 0 0 "

@@ -43,6 +43,19 @@ TETRALUX_GLSL_FUNCTION real pieceSkew(real depth, real halfStep) {
     return higher * (halfStep * halfStep) + a * first;
 }
 
+// The same for D ≤ 1/10: α to D⁵/120, V to D³/16.
+TETRALUX_GLSL_FUNCTION real finePieceLimit() { return real(0.1); }
+TETRALUX_GLSL_FUNCTION real finePieceOpacity(real depth) {
+    real p = real(-1.0 / 24.0) * depth + real(1.0 / 6.0);
+    p = p * depth + real(-0.5);
+    return p * depth * depth + depth;
+}
+TETRALUX_GLSL_FUNCTION real finePieceSkew(real depth, real halfStep) {
+    real a = real(1.0 / 30.0) * halfStep + real(1.0 / 3.0);
+    real b = a * halfStep - real(1.0 / 6.0) * depth * depth;
+    return b - real(0.5) * depth * b;
+}
+
 // Deep pieces: completing the square in Ψ with r = √|δ| gives, where the back is denser (error function) and where the front is (Dawson's
 // integral F),
 //

@@ -113,7 +113,7 @@ HWY_NOINLINE void addDeepPiece(const TransferPiece& piece, real middle, real hal
 
 /// Adds a segment within one piece: `middle` and `half` are its mean scalar less the piece's own middle and half its
 /// scalar step, `path` its length or its variation of the scalar (0 where there is nothing to add).
-template <class Sink>
+template <bool Fine = false, class Sink>
 HWY_INLINE void addPiece(const TransferPiece& piece, real middle, real half, real path, Sink& sink) {
     const real slope(piece.extinctionSlope);
     const real depth = max(path * (real(piece.extinction) + slope * middle), real(0.0f));
@@ -122,6 +122,9 @@ HWY_INLINE void addPiece(const TransferPiece& piece, real middle, real half, rea
         const real halfStep = path * slope * half;
         if constexpr (!Sink::hides) {
             sink.add(piece, depth, middle * depth + halfStep * half * real(1.0f / 3.0f));
+        } else if (Fine && HWY_LIKELY(none(depth > finePieceLimit()))) {
+            const real opacity = finePieceOpacity(depth);
+            sink.add(piece, opacity, middle * opacity + half * finePieceSkew(depth, halfStep));
         } else {
             const mask deep = either(depth > pieceDepthLimit(), abs(halfStep) > pieceSlopeLimit());
             if (HWY_LIKELY(none(deep))) {
@@ -148,18 +151,23 @@ HWY_INLINE void addWithinPiece(const TransferPiece& piece, const Segments& segme
     addPiece(piece, middle, half, ScaleInvariant ? abs(half + half) : segments.length, sink);
 }
 
-/// The part of the segments within one of several pieces. `perScalar`: path per unit of scalar, 0 in pixels that do not
-/// take part.
-template <class Sink>
-HWY_INLINE void addClipped(const TransferPiece& piece, const Segments& segments, real perScalar, Sink& sink) {
+/// The part within one of several pieces of the segments along which the scalar rises, or falls. `perScalar`: path per
+/// unit of scalar.
+template <bool Rises, bool ScaleInvariant, class Sink>
+HWY_INLINE void addPart(const TransferPiece& piece, const Segments& segments, real perScalar, Sink& sink) {
     if (!piece.visible) return;
-    const real low(piece.low), high(piece.high);
-    const real begin = clamp(segments.front, low, high), end = clamp(segments.back, low, high);
-    const real step = end - begin;
-    const real path = abs(step) * perScalar;
-    if (none(path > real(0.0f))) return;
-    const real half = real(0.5f) * step;
-    addPiece(piece, begin + half - real(piece.middle), half, path, sink);
+    const real low(piece.low), high(piece.high), zero(0.0f);
+    const real begin = Rises ? max(segments.front, low) : min(segments.front, high);
+    const real end = Rises ? min(segments.back, high) : max(segments.back, low);
+    const real step = Rises ? max(end - begin, zero) : min(end - begin, zero);
+    const real half = real(0.5f) * step, length = Rises ? step : -step;
+    real path = length;
+    if constexpr (!ScaleInvariant) path = length * perScalar;
+    const real middle = begin + half - real(piece.middle);
+    if (piece.fine)
+        addPiece<true>(piece, middle, half, path, sink);
+    else if (!none(path > zero))
+        addPiece(piece, middle, half, path, sink);
 }
 
 /// The isosurface between two pieces that show nothing else; nullptr: there is more to see, or less.
@@ -173,6 +181,9 @@ HWY_INLINE mask crossed(const TransferPeak& peak, const Segments& segments) {
     const real value(peak.value);
     return both(segments.live, exactlyOne(segments.front < value, segments.back < value));
 }
+
+/// More pieces than this and a block's own range of scalars is worth finding.
+constexpr std::size_t fewPieces = 3;
 
 /// Segments that cross nodes or isosurfaces: pieces first … last of the transfer function.
 template <bool ScaleInvariant, class Sink>
@@ -191,10 +202,16 @@ HWY_INLINE void addAcrossPieces(const CpuTransfer& transfer, std::size_t first, 
     const real step = cut.back - cut.front;
     const mask rising = both(step > real(0.0f), segments.live), falling = both(step < real(0.0f), segments.live);
     const real perScalar = ScaleInvariant ? real(1.0f) : segments.length / abs(step);
+    if (last > first + fewPieces) {
+        const real unmet(1e30f);
+        first = std::max(first,
+                         transfer.pieceFromAbove(-largest(select(segments.live, -min(cut.front, cut.back), -unmet))));
+        last =
+            std::min(last, transfer.pieceFromAbove(largest(select(segments.live, max(cut.front, cut.back), -unmet))));
+    }
     if (!none(rising)) {
-        const real rate = keep(rising, perScalar);
         for (std::size_t k = first; k <= last; ++k) {
-            addClipped(pieces[k], cut, rate, sink);
+            addPart<true, ScaleInvariant>(pieces[k], cut, perScalar, sink);
             if (k == last) break;
             for (std::uint32_t i = pieces[k].peakBegin; i < pieces[k].peakEnd; ++i) {
                 const real value(peaks[i].value);
@@ -203,9 +220,8 @@ HWY_INLINE void addAcrossPieces(const CpuTransfer& transfer, std::size_t first, 
         }
     }
     if (!none(falling)) {
-        const real rate = keep(falling, perScalar);
         for (std::size_t k = last + 1; k-- > first;) {
-            addClipped(pieces[k], cut, rate, sink);
+            addPart<false, ScaleInvariant>(pieces[k], cut, perScalar, sink);
             if (k == first) break;
             for (std::uint32_t i = pieces[k - 1].peakEnd; i-- > pieces[k - 1].peakBegin;) {
                 const real value(peaks[i].value);

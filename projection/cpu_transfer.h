@@ -20,6 +20,7 @@ struct TransferPiece {
     float extinction, extinctionSlope;  ///< per scene length, or per unit of scalar (scale-invariant)
     float color[3], colorSlope[3];
     bool visible;                      ///< has extinction
+    bool fine;                         ///< the colour changes so little that V need not be known well (cpu_piece.glsl)
     std::uint32_t peakBegin, peakEnd;  ///< isosurfaces at `high`
 };
 

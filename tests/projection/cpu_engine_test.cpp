@@ -197,6 +197,27 @@ TEST(CpuEngine, SilhouettesAndLight) {
 // Float; where a ray grazes an isosurface 1/|n·d| carries the rounding of n·d a thousandfold.
 constexpr test::EngineThreshold lookThreshold{1e-5, 1e-3};
 
+// Colour maps as they come in files: cells cross dozens of nodes.
+TEST(CpuEngine, FunctionsOfManyNodes) {
+    for (Mode mode : {Mode::Standard, Mode::ScaleInvariant})
+        for (int nodes : {64, 256, 1000})
+            for (bool rough : {false, true}) {
+                Scene scene = fieldScene("bucky", "smooth", mode);
+                const preint::TransferFunction few = scene.transferFunction;
+                const double low = scene.mesh->scalarMin, range = scene.mesh->scalarMax - low;
+                scene.transferFunction = {};
+                for (int i = 0; i < nodes; ++i) {
+                    const double x = i / (nodes - 1.0), s = low + x * range;
+                    const double other = rough ? 0.1 * (i * 7919 % 13) : 0.5 + 0.5 * std::sin(9 * x);
+                    scene.transferFunction.color.push_back(
+                        {s, glm::mix(few.colorAt(s), glm::dvec3(x, other, 1 - x), 0.4)});
+                    scene.transferFunction.extinction.push_back({s, few.extinctionAt(s) * (0.2 + other)});
+                }
+                if (nodes == 64) scene.transferFunction.isosurfaces = {{low + 0.4 * range, 0.3, {1, 1, 1}}};
+                expectLikeReference(scene, wholeView(*scene.mesh), floatThreshold);
+            }
+}
+
 TEST(CpuEngine, QuickLooksAreTheGeneralOnes) {
     for (int what = 0; what < 64; ++what) {
         Scene scene = fieldScene("bucky", (what & 1) != 0 ? "peaks" : "smooth",
@@ -274,6 +295,20 @@ TEST(CpuEngine, SkippingInvisibleCellsChangesNothing) {
     const Camera camera = wholeView(*scene.mesh);
     CpuSkips all;
     all.invisibleCells = false;
+    {  // one in ten is left out: by bits, not by a list
+        std::vector<double> largest;
+        for (mesh::CellIndex c = 0; c < scene.mesh->cells.size(); ++c)
+            largest.push_back(std::max({scene.mesh->scalarAt(c, 0), scene.mesh->scalarAt(c, 1),
+                                        scene.mesh->scalarAt(c, 2), scene.mesh->scalarAt(c, 3)}));
+        std::sort(largest.begin(), largest.end());
+        Scene most = scene;
+        most.transferFunction.extinction = {{largest[largest.size() / 10], 0.0}, {low + range, 30.0}};
+        FrameReport with;
+        const Image skipped = cpuImage(most, camera, with), full = cpuImage(most, camera, all);
+        EXPECT_NEAR(static_cast<double>(with.cellsSkipped["invisible by transfer function"]),
+                    0.1 * static_cast<double>(largest.size()), 0.02 * static_cast<double>(largest.size()));
+        EXPECT_EQ(compareImages(skipped, full).max, 0.0);
+    }
     for (bool isosurface : {false, true}) {
         if (isosurface) scene.transferFunction.isosurfaces = {{low + 0.3 * range, 0.3, {1, 1, 1}}};
         FrameReport with, without;

@@ -27,6 +27,18 @@ TEST(CpuPiece, WeightsOfShortPieces) {
         }
 }
 
+TEST(CpuPiece, WeightsOfFinePieces) {
+    for (int i = 0; i <= 100; ++i)
+        for (int j = -50; j <= 50; ++j) {
+            const double depth = glsl::finePieceLimit() * i / 100.0, half = depth * j / 50.0;
+            const auto exact = preint::linearPieceWeights(depth - half, depth + half);
+            EXPECT_NEAR(glsl::finePieceOpacity(depth), exact.frontWeight + exact.backWeight,
+                        std::pow(depth, 5) / 120 + 1e-15);
+            EXPECT_NEAR(glsl::finePieceSkew(depth, half), exact.backWeight - exact.frontWeight,
+                        depth * depth * depth / 16 + 1e-13);
+        }
+}
+
 TEST(CpuPiece, ThinPiecesKeepTheirPrecision) {
     for (double depth : {1e-4, 1e-8, 1e-12, 1e-30}) {
         EXPECT_NEAR(glsl::pieceOpacity(depth) / depth, 1.0, depth);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <tbb/blocked_range.h>
@@ -269,7 +270,31 @@ private:
         return positive;
     }
 
-    static void walk(Event* begin, Event* end, std::uint32_t pixel, Reentry& found) {
+    /// Where the ray of a pixel comes into a cell; infinity where it does not meet it.
+    double entryDepth(mesh::CellIndex cell, std::uint32_t pixel) const {
+        const auto width = static_cast<std::uint32_t>(frame_.width);
+        const glm::dvec2 at = glm::dvec2(pixel % width, pixel / width) - sampleCentre(frame_);
+        double nearest = std::numeric_limits<double>::infinity();
+        for (int face = 0; face < 4; ++face) {
+            const auto p = facePoints(mesh_, {cell, face});
+            const glm::dvec3 w(sideOf(p[1], p[2]).at(at.x, at.y), sideOf(p[2], p[0]).at(at.x, at.y),
+                               sideOf(p[0], p[1]).at(at.x, at.y));
+            const glm::dvec3 depths(points_[p[0]].z, points_[p[1]].z, points_[p[2]].z);
+            const double sum = w.x + w.y + w.z;
+            if (sum != 0 && w.x * sum >= 0 && w.y * sum >= 0 && w.z * sum >= 0)
+                nearest = std::min(nearest, glm::dot(w, depths) / sum);
+        }
+        return nearest;
+    }
+
+    /// Whether a ray that comes into a second cell before it has left the first is composed right in their order. Cells
+    /// that reach into one another are composed one after the other, the one that is met first in front: so it is
+    /// where the mesh reaches into itself by less than the last cell's path.
+    bool followsInTurn(const Event& entry, const Event& leave, std::uint32_t pixel) const {
+        return !leave.enters && leave.cell != entry.cell && entryDepth(leave.cell, pixel) < entry.depth;
+    }
+
+    void walk(Event* begin, Event* end, std::uint32_t pixel, Reentry& found) const {
         std::sort(begin, end, [](const Event& a, const Event& b) {
             return a.depth != b.depth ? a.depth < b.depth : !a.enters && b.enters;
         });
@@ -277,6 +302,7 @@ private:
         bool clean = true, hasLeft = false;
         mesh::CellIndex lastLeft = 0;
         for (Event* at = begin; at != end; ++at) {
+            if (inside && at->enters && at + 1 != end && followsInTurn(at[0], at[1], pixel)) std::swap(at[0], at[1]);
             const Event& event = *at;
             clean &= event.enters != inside;
             inside = event.enters;

@@ -141,6 +141,19 @@ double CellProjector::eyeSide(mesh::CellIndex cell, int face) const {
 }
 
 template <bool Orthographic>
+std::array<double, 4> CellProjector::eyeSidesIn(mesh::CellIndex cell) const {
+    const SortedCell<Orthographic> sorted(mesh_.cells[cell], points_);
+    std::array<double, 4> sides;
+    for (std::size_t place = 0; place < 4; ++place)
+        sides[sorted.order[place]] = sorted.odd ? -sorted.forms.eye[place] : sorted.forms.eye[place];
+    return sides;
+}
+
+std::array<double, 4> CellProjector::eyeSides(mesh::CellIndex cell) const {
+    return frame_.orthographic ? eyeSidesIn<true>(cell) : eyeSidesIn<false>(cell);
+}
+
+template <bool Orthographic>
 CellRecord CellProjector::recordIn(mesh::CellIndex cell) const {
     const SortedCell<Orthographic> sorted(mesh_.cells[cell], points_);
     const auto& forms = sorted.forms;

@@ -88,6 +88,9 @@ public:
     /// face's extent along the view). Both cells of a face get the same number with opposite signs.
     double eyeSide(mesh::CellIndex cell, int face) const;
 
+    /// The same of all four faces, at once.
+    std::array<double, 4> eyeSides(mesh::CellIndex cell) const;
+
     /// True when a face of the cell shows its outside to the eye (perspective: eye on the outer side of its plane).
     /// Both cells of a face give opposite answers.
     bool faceIsFront(mesh::CellIndex cell, int face) const { return eyeSide(cell, face) < 0; }
@@ -101,6 +104,8 @@ public:
 private:
     template <bool Orthographic>
     CellRecord recordIn(mesh::CellIndex cell) const;
+    template <bool Orthographic>
+    std::array<double, 4> eyeSidesIn(mesh::CellIndex cell) const;
     template <bool Orthographic>
     std::array<double, 4> eyeCoordinatesIn(mesh::CellIndex cell) const;
     std::array<glm::dvec3, 4> cornersOf(mesh::CellIndex cell) const;

@@ -108,6 +108,7 @@ public:
             image = Image(camera.width, camera.height);  // only now: it takes the place of the survivors
             draw(image, report);
         });
+        report.samplesBeside = cameraFrame_.sampleShift == EdgeOnPlanes::widely;
         report.cellsSkipped = skipped_;
         report.cellsDrawn = cellsDrawn_;
         report.orderMethod = order_.method;

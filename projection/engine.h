@@ -35,6 +35,7 @@ struct FrameReport {
     /// Pixels (y·width + x, ascending) that the engine could not order with certainty; makeEngine's engines have them
     /// composed exactly afterwards and count them as repaired.
     std::vector<std::uint32_t> doubtfulPixels;
+    bool samplesBeside = false;        ///< by EdgeOnPlanes::widely, so that outlines within that are doubtful too
     std::uint64_t pixelsRepaired = 0;  ///< composed by the reference
     /// Doubtful pixels that were not repaired: 0 but for OrderMethod::Centroid. An engine that cannot tell which they
     /// are (gl, whose only proof is the order) says so by `wrongUnknown`.

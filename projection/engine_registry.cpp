@@ -10,6 +10,7 @@
 #include <projection/engine.h>
 #include <projection/exact_repair.h>
 #include <projection/gl_engine.h>
+#include <projection/isosurface_ties.h>
 #include <projection/light_frame.h>
 #include <projection/reference_engine.h>
 #include <projection/scalar_range.h>
@@ -22,13 +23,13 @@ namespace {
 struct RegisteredEngine {
     const char* name;
     std::unique_ptr<Engine> (*make)(const Scene&, const EngineOptions&);
+    double tie;  ///< isosurface_ties.h
 };
 
 // The first one is what "auto" takes.
 constexpr std::array engines{
-    RegisteredEngine{"cpu", makeCpuEngine},
-    RegisteredEngine{"gl", makeGlEngine},
-    RegisteredEngine{"reference", makeReferenceEngine},
+    RegisteredEngine{"cpu", makeCpuEngine, floatTie}, RegisteredEngine{"gl", makeGlEngine, floatTie},
+    RegisteredEngine{"reference", makeReferenceEngine, 0.0},  // its ray caster sees to ties
 };
 
 }  // namespace
@@ -52,7 +53,8 @@ std::unique_ptr<Engine> makeEngine(const Scene& wanted, const EngineOptions& opt
     for (const auto& engine : engines)
         if (name == engine.name) {
             const MakeEngine plain = [&](const Scene& part) {
-                return withExactRepair(engine.make(part, options), part);
+                return withExactRepair(engine.make(engine.tie > 0 ? withTiesAbove(part, engine.tie) : part, options),
+                                       part);
             };
             return withViewMaps(scene.settings.adaptive ? makeAdaptiveEngine(scene, plain) : plain(scene), scene);
         }

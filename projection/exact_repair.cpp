@@ -7,6 +7,7 @@
 
 #include <projection/cell_setup.h>
 #include <projection/float_limits.h>
+#include <projection/isosurface_ties.h>
 #include <projection/reference_ray_caster.h>
 #include <projection/wrapped_engine.h>
 
@@ -22,15 +23,16 @@ public:
     RepairedEngine(std::unique_ptr<Engine> engine, const Scene& scene)
         : WrappedEngine(std::move(engine)), scene_(scene), caster_(scene) {
         const Mode mode = scene.settings.mode;
-        const bool dense = mode == Mode::Standard || mode == Mode::ScaleInvariant || mode == Mode::FirstHit ||
-                           mode == Mode::Absorption;
-        if (dense && engine_->name() != "reference")
+        dense_ = mode == Mode::Standard || mode == Mode::ScaleInvariant || mode == Mode::FirstHit ||
+                 mode == Mode::Absorption;
+        if (dense_ && engine_->name() != "reference")
             beyondFloat_ = cellsBeyondFloat(*scene.mesh, scene.transferFunction, integralOf(scene.settings.mode));
     }
 
     Image render(const View& view, FrameReport& report) override {
         Image image = engine_->render(view, report);
-        if (!beyondFloat_.empty()) doubtCellsBeyondFloat(view.camera, report);
+        const bool ties = dense_ && report.samplesBeside && !scene_.transferFunction.isosurfaces.empty();
+        if (ties || !beyondFloat_.empty()) doubtMore(view.camera, ties, report);
         if (scene_.settings.order == OrderMethod::Centroid) {  // asked for to see what it costs and what it spoils
             report.pixelsWrong += report.doubtfulPixels.size();
             return image;
@@ -47,25 +49,34 @@ public:
     }
 
 private:
-    void doubtCellsBeyondFloat(const Camera& camera, FrameReport& report) const {
-        const CellProjector projector(*scene_.mesh, sceneUnits(*scene_.mesh), cameraFrame(camera));
-        const auto width = static_cast<std::uint32_t>(camera.width);
+    /// Adds the pixels of cells beyond float and, if asked for, those where outlines of isosurfaces may be missed.
+    void doubtMore(const Camera& camera, bool ties, FrameReport& report) const {
+        const CameraFrame frame = cameraFrame(camera);
         std::vector<bool> doubtful(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
         for (std::uint32_t pixel : report.doubtfulPixels) doubtful[pixel] = true;
-        for (mesh::CellIndex cell : beyondFloat_) {
-            PixelRect rect;
-            if (projector.bounds(cell, rect) == SkipReason::OutsideView) continue;
-            // where such a cell ends is beyond float too, and engines look at whole blocks of pixels
-            for (int y = std::max(0, rect.y0 - blockMargin); y < std::min(camera.height, rect.y1 + blockMargin); ++y)
-                for (int x = std::max(0, rect.x0 - blockMargin); x < std::min(camera.width, rect.x1 + blockMargin); ++x)
-                    doubtful[static_cast<std::uint32_t>(y) * width + static_cast<std::uint32_t>(x)] = true;
-        }
+        if (ties)
+            for (std::uint32_t pixel : tiedPixels(scene_, frame)) doubtful[pixel] = true;
+        if (!beyondFloat_.empty()) doubtCellsBeyondFloat(frame, doubtful);
         report.doubtfulPixels.clear();
         for (std::uint32_t pixel = 0; pixel < doubtful.size(); ++pixel)
             if (doubtful[pixel]) report.doubtfulPixels.push_back(pixel);
     }
 
+    void doubtCellsBeyondFloat(const CameraFrame& frame, std::vector<bool>& doubtful) const {
+        const CellProjector projector(*scene_.mesh, sceneUnits(*scene_.mesh), frame);
+        const auto width = static_cast<std::uint32_t>(frame.width);
+        for (mesh::CellIndex cell : beyondFloat_) {
+            PixelRect rect;
+            if (projector.bounds(cell, rect) == SkipReason::OutsideView) continue;
+            // where such a cell ends is beyond float too, and engines look at whole blocks of pixels
+            for (int y = std::max(0, rect.y0 - blockMargin); y < std::min(frame.height, rect.y1 + blockMargin); ++y)
+                for (int x = std::max(0, rect.x0 - blockMargin); x < std::min(frame.width, rect.x1 + blockMargin); ++x)
+                    doubtful[static_cast<std::uint32_t>(y) * width + static_cast<std::uint32_t>(x)] = true;
+        }
+    }
+
     Scene scene_;
+    bool dense_ = false;  // integrates opacity: a missed isosurface, or depth that float does not hold, shows
     std::vector<mesh::CellIndex> beyondFloat_;
     ReferenceRayCaster caster_;
 };

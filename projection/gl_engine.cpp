@@ -265,6 +265,7 @@ Image GlEngine::render(const View& view, FrameReport& report) {
     Stopwatch whole, watch;
     auto& stages = report.stageMilliseconds;
     const CameraFrame frame = sampledFrame(view.camera, edgeOnPlanes_);
+    report.samplesBeside = frame.sampleShift == EdgeOnPlanes::widely;
     projectPoints(*scene_.mesh, units_, frame, points_);
     const CellProjector projector(*scene_.mesh, units_, frame, points_);
     stages["project"] = watch.lap();

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -17,8 +18,10 @@
 
 #include <projection/cell_setup.h>
 #include <projection/cell_shading.h>
+#include <projection/isosurface_ties.h>
 #include <projection/light_frame.h>
-#include <projection/ray_triangle.h>
+#include <projection/pixel_candidates.h>
+#include <projection/reference_cut.h>
 #include <projection/reference_light.h>
 #include <projection/reference_segment.h>
 
@@ -29,69 +32,6 @@ namespace {
 /// Rays run this much beside the pixel's centre (pixels), so that none lies exactly within faces of a grid that is
 /// aligned with the view. It moves the picture by some 1e-10.
 constexpr double rayShiftX = 0x1p-32, rayShiftY = 0x1p-33;
-
-/// Where the ray passes a face.
-struct Crossing {
-    double t, scalar;
-    bool enters;
-};
-
-/// Crossing point and scalar are convex combinations of the face's corners, taken in the order of the point numbers:
-/// both cells of a face get the same numbers to the bit, so an isosurface on the face is crossed in exactly one of
-/// them.
-std::optional<Crossing> crossFace(const std::array<RayPoint, 4>& v, const mesh::ScalarMesh& mesh, mesh::CellIndex cell,
-                                  std::size_t face) {
-    const mesh::Tetrahedron& points = mesh.cells[cell];
-    std::array<int, 3> corners = mesh::faceVertices[face];
-    bool flipped = false;
-    auto order = [&](std::size_t i, std::size_t j) {
-        if (points[static_cast<std::size_t>(corners[i])] > points[static_cast<std::size_t>(corners[j])]) {
-            std::swap(corners[i], corners[j]);
-            flipped = !flipped;
-        }
-    };
-    order(0, 1);
-    order(1, 2);
-    order(0, 1);
-
-    const auto [a, b, c] = std::array{static_cast<std::size_t>(corners[0]), static_cast<std::size_t>(corners[1]),
-                                      static_cast<std::size_t>(corners[2])};
-    const auto crossing = crossTriangle({v[a].across, v[b].across, v[c].across}, {points[a], points[b], points[c]});
-    if (!crossing) return std::nullopt;
-    // across × other = direction, so a face that shows its outside to the eye has a negative area
-    return Crossing{crossing->blend(v[a].t, v[b].t, v[c].t),
-                    crossing->blend(mesh.scalarAt(cell, corners[0]), mesh.scalarAt(cell, corners[1]),
-                                    mesh.scalarAt(cell, corners[2])),
-                    crossing->positive == flipped};
-}
-
-/// Cuts the ray by one cell.
-std::optional<RaySegment> cut(const RayFrame& ray, const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {
-    std::array<RayPoint, 4> v;
-    for (std::size_t k = 0; k < 4; ++k) v[k] = ray.see(mesh.positions[mesh.cells[cell][k]]);
-
-    RaySegment segment{0, 0, 0, 0, cell};
-    bool entered = false, left = false;
-    for (std::size_t face = 0; face < 4; ++face) {
-        const auto crossing = crossFace(v, mesh, cell, face);
-        if (!crossing) continue;
-        if (crossing->enters) {
-            segment.tIn = crossing->t;
-            segment.scalarIn = crossing->scalar;
-            entered = true;
-        } else {
-            segment.tOut = crossing->t;
-            segment.scalarOut = crossing->scalar;
-            left = true;
-        }
-    }
-    if (!entered || !left || !(segment.tOut > segment.tIn) || !(segment.tOut > 0)) return std::nullopt;
-    if (segment.tIn < 0) {  // the ray starts inside
-        segment.scalarIn = glm::mix(segment.scalarIn, segment.scalarOut, -segment.tIn / (segment.tOut - segment.tIn));
-        segment.tIn = 0;
-    }
-    return segment;
-}
 
 /// Some pixels of an image, or all: answers at once whether a rectangle holds any (Crow's summed-area table, 1984).
 class WantedPixels {
@@ -144,6 +84,9 @@ struct ReferenceRayCaster::Pass {
           image(target),
           met(c.scene_.mesh->cells.size()) {
         checkPixelMaps(view);
+    }
+
+    void seePoints() {
         const mesh::ScalarMesh& mesh = *caster.scene_.mesh;
         const double pixel = glm::length(frame.perPixelRight);
         points.resize(mesh.positions.size());
@@ -204,6 +147,7 @@ struct ReferenceRayCaster::Pass {
     }
 
     void renderAll() {
+        seePoints();
         constexpr std::size_t chunk = 8192;
         std::vector<std::vector<mesh::CellIndex>> parts(met.size() / chunk + 1);
         tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
@@ -239,7 +183,16 @@ struct ReferenceRayCaster::Pass {
         }
     }
 
-    void renderPixel(int x, int y, const std::vector<mesh::CellIndex>& cells) {
+    /// Only the pixels that are named, each by the cells over it. For a few: the lists grow with them.
+    void renderFew(const std::vector<std::uint32_t>& pixels) {
+        const PixelCandidates candidates(*caster.scene_.mesh, frame, pixels);
+        const auto width = static_cast<std::uint32_t>(frame.width);
+        tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
+            renderPixel(static_cast<int>(pixels[i] % width), static_cast<int>(pixels[i] / width), candidates.of(i));
+        });
+    }
+
+    void renderPixel(int x, int y, std::span<const mesh::CellIndex> cells) {
         const Ray ray = pixelRay(frame, x + rayShiftX, y + rayShiftY);
         const RayFrame rayFrame(ray);
         std::vector<RaySegment> segments;
@@ -261,7 +214,7 @@ struct ReferenceRayCaster::Pass {
 };
 
 ReferenceRayCaster::ReferenceRayCaster(const Scene& scene)
-    : scene_(withVertexLight(scene)), exact_(scene.transferFunction) {}
+    : scene_(withTiesAbove(withVertexLight(scene), doubleTie)), exact_(scene_.transferFunction) {}
 
 Image ReferenceRayCaster::render(const View& view, RayCastCounts& counts) const {
     Image image(view.camera.width, view.camera.height);
@@ -277,8 +230,13 @@ Image ReferenceRayCaster::render(const View& view, RayCastCounts& counts) const 
 void ReferenceRayCaster::renderPixels(const View& view, const std::vector<std::uint32_t>& pixels, Image& image) const {
     if (pixels.empty()) return;
     Pass pass(*this, view, image);
-    pass.wanted = WantedPixels(pixels, image.width, image.height);
     for (std::uint32_t pixel : pixels) image.pixels[pixel] = glm::vec4(0);
+    constexpr std::size_t few = 8192;
+    if (pixels.size() <= few && PixelCandidates::possible(scene_.mesh->bounds, pass.frame)) {
+        pass.renderFew(pixels);
+        return;
+    }
+    pass.wanted = WantedPixels(pixels, image.width, image.height);
     pass.renderAll();
 }
 

@@ -169,7 +169,7 @@ void VisibilitySorter::State::findOrder(const CellProjector& projector) {
     }
     const bool hasLast = !last.frontToBack.empty() && last.cyclicCells == 0;
     last.cyclicCells = 0;
-    if (hasLast) {
+    if (hasLast && relations.mostlyHold(last.places)) {
         const std::vector<CellPair> wrong = relations.violations(last.places);
         last.upkeep = wrong.empty() ? "kept" : "repaired";
         if (wrong.empty()) return;

@@ -2,6 +2,7 @@
 #include <projection/visibility_relations.h>
 
 #include <algorithm>
+#include <array>
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -14,11 +15,11 @@ VisibilityRelations::VisibilityRelations(const mesh::Adjacency& adjacency, const
     : adjacency_(adjacency), sides_(adjacency.neighbours.size()) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sides_.size(), 2048), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            const std::array<double, 4> side = projector.eyeSides(static_cast<mesh::CellIndex>(i));
             unsigned sides = 0;
             for (unsigned k = 0; k < 4; ++k) {
                 if (adjacency.neighbours[i][k] == mesh::Adjacency::noNeighbour) continue;
-                const double side = projector.eyeSide(static_cast<mesh::CellIndex>(i), static_cast<int>(k));
-                sides |= side < 0 ? 1u << k : side > 0 ? 16u << k : 0u;
+                sides |= side[k] < 0 ? 1u << k : side[k] > 0 ? 16u << k : 0u;
             }
             sides_[i] = static_cast<std::uint16_t>(sides);
         }
@@ -40,6 +41,15 @@ void VisibilityRelations::setGaps(std::vector<CellPair> gaps) {
 std::vector<CellPair>::const_iterator VisibilityRelations::firstOf(const std::vector<CellPair>& pairs,
                                                                    mesh::CellIndex cell) {
     return std::lower_bound(pairs.begin(), pairs.end(), CellPair{cell, 0});
+}
+
+bool VisibilityRelations::mostlyHold(const std::vector<std::uint32_t>& places) const {
+    constexpr std::size_t step = 61;  // a prime: cells from everywhere, in no rhythm of a grid
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < sides_.size(); i += step)
+        eachBehind(static_cast<mesh::CellIndex>(i),
+                   [&](mesh::CellIndex other) { wrong += places[other] < places[i] ? 1 : 0; });
+    return wrong * step * 4 <= sides_.size() + step * 64;  // so few are no sample
 }
 
 std::vector<CellPair> VisibilityRelations::violations(const std::vector<std::uint32_t>& places) const {

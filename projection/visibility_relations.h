@@ -43,6 +43,10 @@ public:
         for (auto i = firstOf(reversedGaps_, cell); i != reversedGaps_.end() && i->first == cell; ++i) visit(i->second);
     }
 
+    /// Whether an order is worth repairing, by a sample of the cells: false where there are about twice as many
+    /// violations as repairOrder takes, or more.
+    bool mostlyHold(const std::vector<std::uint32_t>& places) const;
+
     /// Pairs that the places (one per cell, ascending from the eye) have the wrong way round.
     std::vector<CellPair> violations(const std::vector<std::uint32_t>& places) const;
 

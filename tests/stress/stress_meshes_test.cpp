@@ -2,11 +2,13 @@
 // Meshes that defeat sorting and careless arithmetic, every engine against the reference.
 #include <array>
 #include <cstdlib>
+#include <limits>
 #include <random>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <mesh/validation.h>
 #include <tests/stress/engine_cases.h>
 
 namespace tetralux::projection {
@@ -212,6 +214,41 @@ TEST(StressMeshes, OneCellAroundTheEyeAndOneFarAway) {
     const Image expected = referenceImage(scene, camera);
     EXPECT_GT(coveredShare(expected), 0.5);
     holdEnginesTo(expected, scene, camera, ordinary, "eye in a cell, another far away");
+}
+
+TEST(StressMeshes, WhatIsNotFiniteIsLeftOutAndNothingElse) {
+    const mesh::ScalarMesh base = jitteredBoxMesh(6, 0.2, 4, plain);
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+    for (const bool positions : {true, false}) {
+        mesh::CellSoup soup;
+        soup.points = base.positions;
+        std::vector<double> scalars = base.scalars;
+        std::vector<bool> spoilt(base.positions.size());
+        const double bad[] = {nan, infinity, -infinity};
+        for (std::size_t i = 0; i < 9; ++i) {
+            const std::size_t point = (i * 53 + 7) % base.positions.size();
+            spoilt[point] = true;
+            if (positions)
+                soup.points[point][static_cast<int>(i / 3)] = bad[i % 3];
+            else
+                scalars[point] = bad[i % 3];
+        }
+        for (const auto& cell : base.cells) mesh::appendCell(soup, 10, cell);  // VTK_TETRA
+        soup.fields.push_back({"s", mesh::Association::Point, 1, scalars});
+        mesh::ReadResult read = mesh::tetMeshFromSoup(soup);
+        const mesh::ScalarMesh drawn = mesh::selectScalar(std::move(read.mesh), "s", read.report).mesh;
+
+        mesh::ScalarMesh sound = base;
+        std::erase_if(sound.cells, [&](const mesh::Tetrahedron& cell) {
+            return std::any_of(cell.begin(), cell.end(), [&](mesh::PointIndex p) { return spoilt[p]; });
+        });
+        sound = finished(std::move(sound));
+        ASSERT_LT(sound.cells.size(), base.cells.size());
+        const Camera camera = cameraAt({1.9, 1.4, 2.3});
+        for (const auto& f : {smoothFunction(0, 1, 8), peaksFunction(0, 1)})
+            holdEnginesTo(referenceImage(sceneOf(sound, f), camera), sceneOf(drawn, f), camera, ordinary,
+                          positions ? "NaN and infinite positions" : "NaN and infinite scalars");
+    }
 }
 
 /// A small scene of random kind from one number.

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/isosurface_ties.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <projection/edge_on_planes.h>
+
+namespace tetralux::projection {
+
+namespace {
+
+/// Whether two neighbouring nodes stand at `value`.
+template <class Nodes>
+bool jumpsAt(const Nodes& nodes, double value) {
+    return std::count_if(nodes.begin(), nodes.end(), [&](const auto& node) { return node.scalar == value; }) > 1;
+}
+
+/// Pixels from the sample to the farthest line that it may lie behind.
+constexpr double tieDistance = 2.0 * EdgeOnPlanes::widely.x;
+
+using Corners = std::array<glm::dvec2, 3>;
+
+/// A face as an image shows it: pixels, and scalars less the isosurface's value.
+struct SeenFace {
+    Corners at;
+    std::array<double, 3> above;
+
+    /// What is seen edge-on has no line of its own.
+    bool edgeOn() const {
+        const glm::dvec2 b = at[1] - at[0], c = at[2] - at[0];
+        const double longest = std::max({glm::length(b), glm::length(c), glm::distance(at[1], at[2])});
+        return !(std::abs(b.x * c.y - b.y * c.x) > 2.0 * tieDistance * longest);
+    }
+};
+
+/// Pixels whose centre the line from `a` to `b` passes by less than tieDistance.
+void addNearLine(glm::dvec2 a, glm::dvec2 b, const CameraFrame& frame, std::vector<std::uint32_t>& pixels) {
+    const int steep = std::abs(b.y - a.y) >= std::abs(b.x - a.x) ? 1 : 0, other = 1 - steep;
+    const std::array size{frame.width, frame.height};
+    if (a[steep] > b[steep]) std::swap(a, b);
+    const double first = std::max(std::ceil(a[steep] - tieDistance), 0.0),
+                 last = std::min(std::floor(b[steep] + tieDistance), size[static_cast<std::size_t>(steep)] - 1.0);
+    for (double row = first; row <= last; ++row) {
+        const double length = b[steep] - a[steep];
+        const double share = length > 0 ? std::clamp((row - a[steep]) / length, 0.0, 1.0) : 0.0;
+        const double place = glm::mix(a[other], b[other], share), nearest = std::round(place);
+        if (!(std::abs(place - nearest) < tieDistance)) continue;
+        if (nearest < 0 || nearest >= size[static_cast<std::size_t>(other)]) continue;
+        const double x = steep == 1 ? nearest : row, y = steep == 1 ? row : nearest;
+        pixels.push_back(static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame.width) +
+                         static_cast<std::uint32_t>(x));
+    }
+}
+
+void addTies(const SeenFace& face, const CameraFrame& frame, std::vector<std::uint32_t>& pixels) {
+    std::array<glm::dvec2, 2> ends;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        if ((face.above[i] < 0) == (face.above[j] < 0)) continue;
+        ends[count++] = glm::mix(face.at[i], face.at[j], face.above[i] / (face.above[i] - face.above[j]));
+        if (count == 2) break;
+    }
+    if (count == 2 && !face.edgeOn()) addNearLine(ends[0], ends[1], frame, pixels);
+}
+
+/// Lines of an isosurface in the faces of one cell.
+class CellTies {
+public:
+    CellTies(const Scene& scene, const CameraFrame& frame)
+        : scene_(scene), frame_(frame), pixel_(glm::length(frame.perPixelRight)) {}
+
+    void add(mesh::CellIndex cell, std::vector<std::uint32_t>& pixels) const {
+        const mesh::ScalarMesh& mesh = *scene_.mesh;
+        std::array<double, 4> s;
+        for (std::size_t k = 0; k < 4; ++k) s[k] = mesh.scalarAt(cell, static_cast<int>(k));
+        const auto [low, high] = std::minmax_element(s.begin(), s.end());
+        for (const preint::Isosurface& surface : scene_.transferFunction.isosurfaces) {
+            if (!(*low < surface.value && surface.value <= *high)) continue;
+            std::array<glm::dvec2, 4> at;
+            if (!see(mesh.cells[cell], at)) return;
+            for (const auto& face : mesh::faceVertices) {
+                SeenFace seen;
+                for (std::size_t i = 0; i < 3; ++i) {
+                    const auto k = static_cast<std::size_t>(face[i]);
+                    seen.at[i] = at[k];
+                    seen.above[i] = s[k] - surface.value;
+                }
+                addTies(seen, frame_, pixels);
+            }
+        }
+    }
+
+private:
+    /// Pixel coordinates of the corners; false where one is not in front of the eye.
+    bool see(const mesh::Tetrahedron& cell, std::array<glm::dvec2, 4>& at) const {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const glm::dvec3 p = scene_.mesh->positions[cell[k]] - frame_.eye;
+            const double depth = glm::dot(p, frame_.forward);
+            if (!(depth > 0)) return false;
+            at[k] = frame_.centre + glm::dvec2(glm::dot(p, frame_.right), -glm::dot(p, frame_.up)) /
+                                        (pixel_ * (frame_.orthographic ? 1.0 : depth));
+        }
+        return true;
+    }
+
+    const Scene& scene_;
+    const CameraFrame& frame_;
+    const double pixel_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> tiedPixels(const Scene& scene, const CameraFrame& frame) {
+    const CellTies ties(scene, frame);
+    tbb::enumerable_thread_specific<std::vector<std::uint32_t>> found;
+    const auto cells = static_cast<mesh::CellIndex>(scene.mesh->cells.size());
+    tbb::parallel_for(tbb::blocked_range<mesh::CellIndex>(0, cells, 4096), [&](const auto& range) {
+        auto& mine = found.local();
+        for (mesh::CellIndex cell = range.begin(); cell != range.end(); ++cell) ties.add(cell, mine);
+    });
+    std::vector<std::uint32_t> all;
+    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+Scene withTiesAbove(const Scene& scene, double share) {
+    Scene result = scene;
+    const mesh::ScalarMesh& mesh = *scene.mesh;
+    constexpr double steps = 4.0;  // of double at the scalars themselves, where the range is small beside them
+    const double largest = std::max(std::abs(mesh.scalarMin), std::abs(mesh.scalarMax));
+    const double step = std::max(share * (mesh.scalarMax - mesh.scalarMin), steps * 0x1p-53 * largest);
+    const preint::TransferFunction& function = scene.transferFunction;
+    for (preint::Isosurface& surface : result.transferFunction.isosurfaces)
+        if (!jumpsAt(function.color, surface.value) && !jumpsAt(function.extinction, surface.value))
+            surface.value -= step;
+    return result;
+}
+
+}  // namespace tetralux::projection

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays that meet exactly the value of an isosurface where the scalar turns or the mesh begins: s = v is not below v, in
+// every pixel, whatever rounding says. The pictures are known.
+#include <fmt/format.h>
+
+#include <tests/stress/engine_cases.h>
+
+namespace tetralux::projection {
+namespace {
+
+using namespace tetralux::test;
+
+// nothing but whole peaks, in float; one pixel that falls the other way is 0.24 and more
+constexpr Threshold exact{1e-6, 1e-5};
+
+constexpr double peakOpacity = 0.4;
+constexpr float once = 0.4f, twice = 0.64f, never = 0.0f;  // alpha of a ray that crosses the isosurface
+
+preint::TransferFunction onePeak(double value) {
+    preint::TransferFunction f;
+    f.color = {{0.0, {1, 1, 1}}};
+    f.extinction = {{0.0, 0.0}};
+    f.isosurfaces = {{value, peakOpacity, {1, 1, 1}}};
+    return f;
+}
+
+/// Pixel centres every 1/32 of the unit box and on its middle, seen along `axis` from either side.
+Camera latticeCamera(int axis, double side) {
+    glm::dvec3 eye(0.5);
+    eye[axis] += 2.0 * side;
+    Camera camera = cameraAt(eye, glm::dvec3(0.5), 27, 27);
+    camera.orthographicHeight = 27.0 / 32.0;
+    if (axis == 1) camera.up = {0, 0, 1};
+    return camera;
+}
+
+TEST(StressTies, OutlinesThroughPixelCentres) {
+    // s = ±x + |z − ½|: rays along z turn at the middle of the box, where s = ±x. Where that is below v and the
+    // walls are not, v is crossed twice, elsewhere not at all; v is the value of a row of pixel centres, in the middle
+    // for both slopes and at the walls for one.
+    for (int along = 0; along < 3; ++along)
+        for (double slope : {1.0, -1.0})
+            for (double side : {1.0, -1.0}) {
+                const int across = (along + 1) % 3;
+                const auto ramp = [&](const glm::dvec3& p) { return slope * (p[across] - 0.25); };
+                Scene scene = sceneOf(
+                    boxMesh(3, [&](const glm::dvec3& p) { return ramp(p) + std::abs(p[along] - 0.5); }), onePeak(0.0));
+                const Camera camera = latticeCamera(along, side);
+                const CameraFrame frame = cameraFrame(camera);
+                Image expected(camera.width, camera.height);
+                for (int y = 0; y < camera.height; ++y)
+                    for (int x = 0; x < camera.width; ++x) {
+                        // exact: all numbers here are multiples of 1/64
+                        const double middle = ramp(pixelRay(frame, x, y).origin), wall = middle + 0.5;
+                        const bool crosses = middle < 0 && !(wall < 0);
+                        expected.at(x, y) = glm::vec4(crosses ? twice : never);
+                    }
+                EXPECT_GT(coveredShare(expected), 0.1);
+                EXPECT_LT(coveredShare(expected), 0.9);
+                holdEnginesTo(expected, scene, camera, exact,
+                              fmt::format("outline on pixel centres, along {} {:+}, slope {:+}", along, side, slope));
+            }
+}
+
+TEST(StressTies, IsosurfacesOfTheBoundarysOwnValue) {
+    // s falls from 1 on one wall to 0 on the other: that of 1 is crossed at the wall itself, that of 0 nowhere
+    for (int axis = 0; axis < 3; ++axis)
+        for (double value : {1.0, 0.0}) {
+            const Scene scene = sceneOf(boxMesh(4, [&](const glm::dvec3& p) { return 1 - p[axis]; }), onePeak(value));
+            for (double side : {1.0, -1.0}) {
+                Camera camera = latticeCamera(axis, side);
+                for (bool orthographic : {true, false}) {
+                    if (!orthographic) {
+                        camera.orthographicHeight = 0;
+                        camera.fovDegrees = 20;  // within the nearer wall's outline
+                    }
+                    Image expected(camera.width, camera.height);
+                    for (glm::vec4& pixel : expected.pixels) pixel = glm::vec4(value == 1.0 ? once : never);
+                    holdEnginesTo(expected, scene, camera, exact,
+                                  fmt::format("isosurface {} of a wall, axis {} {:+} {}", value, axis, side,
+                                              orthographic ? "orthographic" : ""));
+                }
+            }
+        }
+}
+
+TEST(StressTies, PlateausOfTheIsosurfacesValue) {
+    // s rises to 1 in the first third, stays there and falls again: no ray along z is ever above 1
+    const auto plateau = [](double z) { return std::min({3 * z, 1.0, 3 * (1 - z)}); };
+    for (double turn : {1.0, -1.0}) {
+        // turn −1: a valley whose floor is the isosurface: nothing is below it
+        const Scene scene =
+            sceneOf(boxMesh(4, [&](const glm::dvec3& p) { return turn * plateau(p.z); }), onePeak(turn));
+        Camera camera = cameraAt({0.8, 0.7, 3}, glm::dvec3(0.5), 32, 32);
+        camera.fovDegrees = 10;  // all rays pass both walls
+        Image expected(32, 32);
+        for (glm::vec4& pixel : expected.pixels) pixel = glm::vec4(turn > 0 ? twice : never);
+        holdEnginesTo(expected, scene, camera, exact, turn > 0 ? "plateau" : "valley");
+    }
+}
+
+}  // namespace
+}  // namespace tetralux::projection

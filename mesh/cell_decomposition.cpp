@@ -203,6 +203,11 @@ Decomposition decomposeCells(CellSoup& soup, std::vector<CellVerdict>& verdicts)
         const std::size_t end = std::min(verdicts.size(), (i + 1) * blockSize);
         blocks[i] = decomposeBlock(soup, i * blockSize, end, triangulation, verdicts);
     });
+    // Before the tetrahedra are copied, which needs the most memory of all.
+    soup.offsets = {};
+    soup.connectivity = {};
+    soup.faceOffsets = {};
+    soup.faceStream = {};
     Decomposition result = joinBlocks(blocks, soup);
     result.facesFitted = triangulation.facesFitted();
     return result;

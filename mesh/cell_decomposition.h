@@ -29,9 +29,9 @@ struct Decomposition {
 Decomposition takeTetrahedra(const std::vector<glm::dvec3>& points, std::vector<Tetrahedron>&& cells,
                              std::vector<CellVerdict>& verdicts, std::vector<std::uint8_t>& used);
 
-/// Takes the kept cells of `soup` apart, in parallel. Adds points to `soup` where it needs them and sets verdicts to
-/// Inverted, Folded, Flat or Unsupported (an open polyhedron) as it finds them. Cells must have passed `classifyCells`,
-/// and curved ones have become linear.
+/// Takes the kept cells of `soup` apart, in parallel, and away. Adds points to `soup` where it needs them and sets
+/// verdicts to Inverted, Folded, Flat or Unsupported (an open polyhedron) as it finds them. Cells must have passed
+/// `classifyCells`, and curved ones have become linear.
 Decomposition decomposeCells(CellSoup& soup, std::vector<CellVerdict>& verdicts);
 
 }  // namespace tetralux::mesh

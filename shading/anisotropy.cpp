@@ -7,9 +7,11 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
-#include <mesh/cell_tree.h>
 #include <mesh/point_cells.h>
+#include <shading/level_set_points.h>
 
 namespace tetralux::shading {
 
@@ -24,93 +26,14 @@ double meanEdge(const mesh::ScalarMesh& mesh) {
     return mesh.cells.empty() ? 0.0 : sum / (6.0 * static_cast<double>(mesh.cells.size()));
 }
 
-using Weights = std::array<double, 4>;
-
-/// Barycentric coordinates of points that fill a tetrahedron evenly: the additive sequence of Roberts, whose three
-/// numbers in ascending order cut [0, 1] into four parts.
-std::vector<Weights> fillingPoints(int count) {
-    constexpr double steps[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
-    std::vector<Weights> points;
-    for (int i = 0; i < count; ++i) {
-        double cut[3];
-        for (int k = 0; k < 3; ++k) {
-            const double x = 0.5 + steps[k] * i;
-            cut[k] = x - std::floor(x);
-        }
-        std::sort(cut, cut + 3);
-        points.push_back({cut[0], cut[1] - cut[0], cut[2] - cut[1], 1 - cut[2]});
-    }
-    return points;
-}
-
-/// The moments about one point, gathered cell by cell.
-class Neighbourhood {
-public:
-    Neighbourhood(const mesh::ScalarMesh& mesh, const std::vector<double>& levelSetAreas, mesh::PointIndex point,
-                  const glm::dvec3& normal, double radius, double interval)
-        : mesh_(mesh),
-          areas_(levelSetAreas),
-          centre_(mesh.positions[point]),
-          normal_(normal),
-          scalar_(mesh.scalars[point]),
-          perRadius_(1 / radius),
-          interval_(interval) {}
-
-    void add(mesh::CellIndex cell, const std::vector<Weights>& filling) {
-        const mesh::Tetrahedron& points = mesh_.cells[cell];
-        Weights steps;
-        for (std::size_t k = 0; k < 4; ++k) steps[k] = mesh_.scalars[points[k]] - scalar_;
-        const auto [low, high] = std::minmax_element(steps.begin(), steps.end());
-        if (*low > interval_ || *high < -interval_) return;
-        std::array<glm::dvec3, 4> corners;  // from the centre, in radii
-        for (std::size_t k = 0; k < 4; ++k) corners[k] = (mesh_.positions[points[k]] - centre_) * perRadius_;
-        const double area = areas_[cell];
-        for (const Weights& w : filling) {
-            const double step = w[0] * steps[0] + w[1] * steps[1] + w[2] * steps[2] + w[3] * steps[3];
-            const glm::dvec3 x = w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2] + w[3] * corners[3];
-            const double square = glm::dot(x, x);
-            const double apart = step / interval_;
-            if (square < 1 && std::abs(apart) <= 1) addPoint(x, area * (1 - square) * (1 - apart * apart));
-        }
-    }
-
-    Tensor tensor() const {
-        Tensor result{};
-        if (weight_ > 0)
-            std::transform(sum_.begin(), sum_.end(), result.begin(), [&](double s) { return s / weight_; });
-        return result;
-    }
-
-private:
-    void addPoint(const glm::dvec3& x, double weight) {
-        const glm::dvec3 d = x - glm::dot(x, normal_) * normal_;
-        const double products[6] = {d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z};
-        for (std::size_t i = 0; i < 6; ++i) sum_[i] += weight * products[i];
-        weight_ += weight;
-    }
-
-    const mesh::ScalarMesh& mesh_;
-    const std::vector<double>& areas_;
-    const glm::dvec3 centre_, normal_;
-    const double scalar_, perRadius_, interval_;
-    Tensor sum_{};
-    double weight_ = 0;
-};
-
-/// Per cell, what its level sets weigh: six times the volume in cubes of `radius`, times how many of `interval` the
-/// scalar changes along a radius.
-std::vector<double> levelSetAreas(const mesh::ScalarMesh& mesh, double radius, double interval) {
-    std::vector<double> areas(mesh.cells.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, areas.size(), 4096), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            std::array<glm::dvec3, 4> corners;
-            for (std::size_t k = 0; k < 4; ++k)
-                corners[k] = (mesh.positions[mesh.cells[i][k]] - mesh.positions[mesh.cells[i][0]]) / radius;
-            areas[i] = mesh::sixVolumes(corners[0], corners[1], corners[2], corners[3]) *
-                       glm::length(mesh::cellGradient(mesh, static_cast<mesh::CellIndex>(i)) * (radius / interval));
-        }
-    });
-    return areas;
+/// (I − n nᵀ) M (I − n nᵀ) / Σ w.
+Tensor inTangentPlane(const PointMoments& moments, const glm::dvec3& normal) {
+    if (!(moments.weight > 0)) return Tensor{};
+    const glm::dmat3 matrix(moments.xx, moments.xy, moments.xz, moments.xy, moments.yy, moments.yz, moments.xz,
+                            moments.yz, moments.zz);
+    const glm::dmat3 across = glm::dmat3(1.0) - glm::outerProduct(normal, normal);
+    const glm::dmat3 found = across * matrix * across / moments.weight;
+    return {found[0][0], found[1][1], found[2][2], found[0][1], found[0][2], found[1][2]};
 }
 
 /// Every tensor becomes the mean over the corners of the cells around its point.
@@ -137,19 +60,15 @@ std::vector<Tensor> levelSetTensors(const mesh::ScalarMesh& mesh, const std::vec
                                     const AnisotropySettings& settings) {
     std::vector<Tensor> tensors(mesh.positions.size(), Tensor{});
     const double radius = settings.radius * meanEdge(mesh);
-    if (mesh.association == mesh::Association::Cell || !(radius > 0)) return tensors;
     const double interval = settings.interval * (mesh.scalarMax - mesh.scalarMin);
-    const std::vector<Weights> filling = fillingPoints(settings.samples);
-    const std::vector<double> areas = levelSetAreas(mesh, radius, interval);
-    const mesh::CellTree tree(mesh.positions, mesh.cells);
+    if (mesh.association == mesh::Association::Cell || !(radius > 0) || !(interval > 0)) return tensors;
+    const LevelSetPoints points(mesh, radius, interval, settings.samples);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tensors.size(), 64), [&](const auto& range) {
         for (std::size_t point = range.begin(); point != range.end(); ++point) {
             const double magnitude = glm::length(gradients[point]);
             if (!(magnitude > 0)) continue;
-            Neighbourhood near(mesh, areas, static_cast<mesh::PointIndex>(point), gradients[point] / magnitude, radius,
-                               interval);
-            tree.forEachNear(mesh.positions[point], radius, [&](mesh::CellIndex cell) { near.add(cell, filling); });
-            tensors[point] = near.tensor();
+            tensors[point] =
+                inTangentPlane(points.near(mesh.positions[point], mesh.scalars[point]), gradients[point] / magnitude);
         }
     });
     for (int i = 0; i < settings.smoothing; ++i) tensors = smoothed(mesh, tensors);

@@ -9,6 +9,7 @@
 
 #include <mesh/point_cells.h>
 #include <shading/anisotropy.h>
+#include <shading/level_set_points.h>
 #include <shading/vertex_gradients.h>
 #include <tests/support/analytic_scenes.h>
 
@@ -75,17 +76,73 @@ TEST(Anisotropy, IsNoneOnASphere) {
     }
 }
 
+// About the waist of an ellipsoid of elongation e the level set is bent by 1 one way, by 1/e² the other: what a
+// neighbourhood can tell tends to the cylinder's ratio as 1/e², so that the steps become small. The field is quadratic,
+// so that cells of one size hold it alike well at every elongation.
 TEST(Anisotropy, RisesWithElongation) {
-    double previous = 0;
-    for (const double length : {1.0, 1.3, 2.0}) {
-        const auto m = boxMesh(21, [&](const glm::dvec3& p) { return ellipsoid(p, {1, 1, length}); });
-        std::vector<Sample> waist;  // the equator: the same points for each length
-        for (const Sample& sample : samplesOf(m, 0.12, 0.25))
+    const auto ratioOf = [](double length) {
+        const auto m = boxMesh(21, [&](const glm::dvec3& p) { return std::pow(ellipsoid(p, {1, 1, length}), 2); });
+        std::vector<Sample> waist;  // the same points for each length
+        for (const Sample& sample : samplesOf(m, 0, 0.06))
             if (std::abs(sample.place.z - 0.5) < 0.01 && glm::distance(sample.place, glm::dvec3(0.5)) > 0.14)
                 waist.push_back(sample);
-        const double ratio = meanRatio(waist);
-        EXPECT_GT(ratio, previous + 0.02) << length;
+        return meanRatio(waist);
+    };
+    const double cylinder = ratioOf(1e6);
+    double previous = 0;
+    for (const double length : {1.0, 1.5, 2.0, 3.0, 5.0}) {
+        const double ratio = ratioOf(length);
+        EXPECT_GT(ratio, previous + 0.005) << length;
+        EXPECT_LT(ratio, cylinder) << length;
         previous = ratio;
+    }
+    EXPECT_GT(previous, 1.1);
+}
+
+// The same sums one point after the other, in double.
+TEST(Anisotropy, IsTheSumOverTheFillingPoints) {
+    const auto m = jitteredBoxMesh(7, 0.3, 3, [](const glm::dvec3& p) { return ellipsoid(p, {1, 1.5, 2}); });
+    const auto gradients = vertexGradients(m, mesh::PointCells(m.cells, m.positions.size()));
+    for (const int samples : {1, 4, 7}) {
+        AnisotropySettings settings;
+        settings.samples = samples;
+        settings.radius = 2.5;
+        double edges = 0;
+        for (const auto& cell : m.cells)
+            for (std::size_t i = 0; i < 4; ++i)
+                for (std::size_t k = i + 1; k < 4; ++k)
+                    edges += glm::distance(m.positions[cell[i]], m.positions[cell[k]]);
+        const double radius = settings.radius * edges / (6.0 * static_cast<double>(m.cells.size()));
+        const double interval = settings.interval * (m.scalarMax - m.scalarMin);
+        const auto tensors = levelSetTensors(m, gradients, settings);
+        for (const std::size_t point : {0u, 57u, 171u, 200u}) {
+            const glm::dvec3 normal = glm::normalize(gradients[point]);
+            Tensor sum{};
+            double weight = 0;
+            for (mesh::CellIndex cell = 0; cell < m.cells.size(); ++cell) {
+                std::array<glm::dvec3, 4> p;
+                for (std::size_t k = 0; k < 4; ++k) p[k] = m.positions[m.cells[cell][k]];
+                const double area = mesh::sixVolumes(p[0], p[1], p[2], p[3]) * glm::length(mesh::cellGradient(m, cell));
+                for (const auto& at : fillingPoints(samples)) {
+                    glm::dvec3 x(0);
+                    double s = 0;
+                    for (std::size_t k = 0; k < 4; ++k) {
+                        x += at[k] * p[k];
+                        s += at[k] * m.scalars[m.cells[cell][k]];
+                    }
+                    x = (x - m.positions[point]) / radius;
+                    const double apart = (s - m.scalars[point]) / interval;
+                    if (glm::dot(x, x) >= 1 || std::abs(apart) >= 1) continue;
+                    const double w = area * (1 - glm::dot(x, x)) * (1 - apart * apart);
+                    const glm::dvec3 d = x - glm::dot(x, normal) * normal;
+                    const Tensor products{d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z};
+                    for (std::size_t i = 0; i < 6; ++i) sum[i] += w * products[i];
+                    weight += w;
+                }
+            }
+            ASSERT_GT(weight, 0);
+            for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(tensors[point][i], sum[i] / weight, 2e-6);  // float
+        }
     }
 }
 

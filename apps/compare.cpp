@@ -26,6 +26,7 @@ struct CompareOptions {
     std::string first, second;
     double largestRmse = anyError, largestMax = anyError;
     bool structure = false;
+    std::string unlit;  ///< what structure is compared with; empty: a uniform picture
     bool json = false;
 };
 
@@ -65,12 +66,23 @@ void print(const CompareOptions& options, const projection::ImageDifference& dif
     if (!structure.empty()) fmt::print("structure {:.6g} and {:.6g}\n", structure[0], structure[1]);
 }
 
+std::vector<double> structureOf(const CompareOptions& options, const projection::Image& first,
+                                const projection::Image& second) {
+    if (options.unlit.empty()) return {projection::structureScore(first), projection::structureScore(second)};
+    const projection::Image unlit = projection::readImage(options.unlit);
+    try {
+        return {projection::structureScore(unlit, first), projection::structureScore(unlit, second)};
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(fmt::format("--structure {}: {}", options.unlit, error.what()));
+    }
+}
+
 int compare(const CompareOptions& options) {
     projection::Image first = projection::readImage(options.first);
     projection::Image second = projection::readImage(options.second);
     const projection::ImageDifference difference = differenceOf(options, first, second);
     std::vector<double> structure;
-    if (options.structure) structure = {projection::structureScore(first), projection::structureScore(second)};
+    if (options.structure) structure = structureOf(options, first, second);
     print(options, difference, structure);
     return difference.rmse <= options.largestRmse && difference.max <= options.largestMax ? 0 : 1;
 }
@@ -84,8 +96,17 @@ void addCompareCommand(CLI::App& program, Command& chosen) {
     command->add_option("B", options->second, ".png or .exr")->required();
     command->add_option("--max-rmse", options->largestRmse, "exit status 1 when rmse is above this");
     command->add_option("--max-error", options->largestMax, "exit status 1 when the largest difference is above this");
-    command->add_flag("--structure", options->structure,
-                      "also how much structure each shows: 0 for a uniform picture (multi-scale Haar wavelets)");
+    command
+        ->add_option_function<std::string>(
+            "--structure",
+            [options](const std::string& unlit) {
+                options->structure = true;
+                options->unlit = unlit;
+            },
+            "also how much structure light gives to each (MS-HWSD), against the same picture UNLIT; without UNLIT how "
+            "much each shows by itself")
+        ->expected(0, 1)
+        ->type_name("[UNLIT]");
     command->add_flag("--json", options->json, "for machines");
     command->callback([options, &chosen] { chosen = [options] { return compare(*options); }; });
 }

@@ -185,10 +185,10 @@ void finishShapeOptions(const ShapeOptions& options, projection::RenderSettings&
         throw std::runtime_error(
             "--classification: a sample does not meet isosurfaces; leave --isosurfaces out, or take preintegrated");
     if (!options.adaptiveOn) return;
-    if (!integrates && mode != Mode::Additive && mode != Mode::Emission && mode != Mode::Absorption)
+    if (!integrates && !projection::addsUp(mode) && mode != Mode::Absorption)
         throw std::runtime_error(
-            "--adaptive: this mode has no extinction; take standard, scale-invariant, additive, emission or "
-            "absorption");
+            "--adaptive: this mode has no extinction; take standard, scale-invariant, additive, "
+            "additive-scale-invariant, emission or absorption");
     settings.adaptive = options.adaptive;
     if (!options.mostGiven && options.adaptive.amount == AdaptiveSettings::Amount::Cells)
         settings.adaptive->most = mostPerCell;

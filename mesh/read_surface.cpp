@@ -135,6 +135,11 @@ CellSoup trianglesOf(vtkPolyData* surface) {
 
 SurfaceMesh readSurface(const std::string& path) {
     const PolygonReader read = readerFor(path);
+    std::error_code failed;
+    if (!std::filesystem::exists(path, failed))
+        throw std::runtime_error(fmt::format("{}: no such surface file; check the path", path));
+    if (std::filesystem::is_directory(path, failed))
+        throw std::runtime_error(fmt::format("{}: is a directory; give a surface file", path));
     checkReadable(path);
     if (hasExtension(path, {".stl"})) checkStlSize(path);
     // our own parser needs no process of its own; VTK makes triangles of what it found

@@ -8,6 +8,7 @@
 
 #include <projection/amount_map.h>
 #include <projection/cell_setup.h>
+#include <projection/wrapped_engine.h>
 
 namespace tetralux::projection {
 
@@ -79,14 +80,14 @@ Scene drawnScene(const Scene& scene) {
     return drawn;
 }
 
-class AdaptiveEngine final : public Engine {
+class AdaptiveEngine final : public WrappedEngine {
 public:
     AdaptiveEngine(const Scene& scene, const MakeEngine& make)
-        : settings_(*scene.settings.adaptive),
+        : WrappedEngine(make(drawnScene(scene))),
+          settings_(*scene.settings.adaptive),
           countsCells_(countsCells(scene)),
           scale_(adaptiveScale(scene)),
-          measuring_(make(measuringScene(scene))),
-          drawing_(make(drawnScene(scene))) {}
+          measuring_(make(measuringScene(scene))) {}
 
     Image render(const View& view, FrameReport& report) override {
         const auto start = std::chrono::steady_clock::now();
@@ -105,22 +106,17 @@ public:
         report.maps = maps;
         const double spent =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-        Image image = drawing_->render({view.camera, maps.get()}, report);
+        Image image = engine_->render({view.camera, maps.get()}, report);
         report.stageMilliseconds["measure"] += spent;
         report.frameMilliseconds += spent;
         return image;
     }
 
-    std::string name() const override { return drawing_->name(); }
-    std::string renderer() const override { return drawing_->renderer(); }
-    std::map<std::string, double> prepareMilliseconds() const override { return drawing_->prepareMilliseconds(); }
-    const preint::PreintegrationTable* table() const override { return drawing_->table(); }
-
 private:
     AdaptiveSettings settings_;
     bool countsCells_;
     AdaptiveScale scale_;
-    std::unique_ptr<Engine> measuring_, drawing_;
+    std::unique_ptr<Engine> measuring_;  ///< what draws is the wrapped one
 };
 
 }  // namespace

@@ -167,7 +167,7 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
         storeFloats(gx * scale, &batch.normal[0][j]);
         storeFloats(gy * scale, &batch.normal[1][j]);
         storeFloats(gz * scale, &batch.normal[2][j]);
-        if (frame.lightInFull) {
+        if (frame.attributes) {
             wide perDeterminant = wide(1.0) / forms.determinant;
             if constexpr (Orthographic) perDeterminant = perDeterminant * abs(reference.depth);
             for (std::size_t k = 0; k < 4; ++k) {

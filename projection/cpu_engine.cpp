@@ -28,6 +28,7 @@
 #include <projection/edge_on_planes.h>
 #include <projection/ray_nearness.h>
 #include <projection/transfer_support.h>
+#include <projection/vertex_samples.h>
 
 namespace tetralux::projection {
 
@@ -184,6 +185,7 @@ TileKind CpuEngine::kind() const {
         case Mode::FirstHit:
             return TileKind::FirstHit;
         case Mode::Additive:
+        case Mode::DataAdditive:
         case Mode::Emission:
             return TileKind::Additive;
         case Mode::Absorption:
@@ -196,7 +198,8 @@ TileKind CpuEngine::kind() const {
         default:
             break;
     }
-    if (shading.needsGradient()) return TileKind::Shaded;
+    // so do samples at the vertices: kernels without it do not know where in a cell a segment lies
+    if (shading.needsGradient() || samplesVertices(scene_)) return TileKind::Shaded;
     // other classifications show no peaks, so that theirs do not count for one colour
     const bool plain = scene_.settings.classification == Classification::Preintegrated;
     return skips_.orderFree && plain && transfer_.constantColor() ? TileKind::Absorption : TileKind::Composite;
@@ -219,6 +222,7 @@ void CpuEngine::prepare() {
     vertexLight_ = vertexLightOf(scene_);
     frame_.shading = &shading;
     frame_.lightInFull = shading.lit() && !shading.plain();
+    frame_.attributes = frame_.lightInFull || vertexLight_->sampleAt >= 0;
     frame_.lightModel = lightModelFloats(shading);
     frame_.vertexLight = vertexLight_.get();
     frame_.earlyTermination = skips_.earlyTermination && scene_.settings.earlyTermination;

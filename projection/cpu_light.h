@@ -124,7 +124,7 @@ HWY_INLINE vec3 arriving(const FrameLight& light, vec3 place, vec3 view, vec3& t
 /// Colour per α in the light. `place`: the segments' middles, (right, down, forward) from the eye, scene lengths.
 inline HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& batch, std::size_t j,
                                      const SegmentMiddles& middles, vec3 place, const SegmentToLight& segment) {
-    const LightModel model = broadcastModel(frame.lightModel);
+    LightModel model = broadcastModel(frame.lightModel);
     const shading::VertexLight& kept = *frame.vertexLight;
     const vec3 ambient = broadcast(frame.lightModel.ambient);
     const vec3 dark(ambient.x * segment.color.x, ambient.y * segment.color.y, ambient.z * segment.color.z);
@@ -135,6 +135,11 @@ inline HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& ba
     if (kept.any()) {
         middleCoordinates(batch, j, middles, weights);
         for (std::size_t k = 0; k < 4; ++k) values[k] = kept.of(static_cast<std::uint32_t>(batch.corner[k][j]));
+    }
+    if (kept.specularAt >= 0) {
+        const real factor = attributeAt(values, kept.specularAt, weights);
+        model.specular = model.specular * factor;
+        model.specularThrough = model.specularThrough * factor;
     }
     LitPoint point;
     point.view = worldFromCamera(frame, -segment.towards);

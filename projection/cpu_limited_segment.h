@@ -126,6 +126,20 @@ HWY_INLINE Sample sampleAt(const CpuTransfer& transfer, std::size_t first, std::
     return sample;
 }
 
+/// Post-classification's sample, or what the vertices carry for pre-classification, in the middles of the segments.
+HWY_INLINE Sample segmentSample(const TileFrame& frame, const CellBatch& batch, std::size_t j,
+                                const SegmentMiddles& middles, std::size_t first, std::size_t last,
+                                const Segments& segments) {
+    const shading::VertexLight& kept = *frame.vertexLight;
+    if (kept.sampleAt < 0) return sampleAt(*frame.transfer, first, last, real(0.5f) * (segments.front + segments.back));
+    real weights[4];
+    middleCoordinates(batch, j, middles, weights);
+    const float* values[4];
+    for (std::size_t k = 0; k < 4; ++k) values[k] = kept.of(static_cast<std::uint32_t>(batch.corner[k][j]));
+    const vec3 color = vectorAt(values, kept.sampleAt, weights);
+    return {attributeAt(values, kept.sampleAt + 3, weights), color.x, color.y, color.z};
+}
+
 /// Where along the segments (scalars) something first shows; `shown` tells where anything does.
 struct FirstShown {
     real scalar;

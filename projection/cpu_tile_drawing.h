@@ -281,7 +281,7 @@ private:
         std::conditional_t<Limited, ScaledSegmentSink, SegmentSink> sink;
         sink.begin();
         if constexpr (Limited)
-            classify(first, last, segments, at, sink);
+            classify(block, first, last, segments, sink);
         else
             integrate(first, last, segments, sink);
         const ShadedSegment shaded = shade(block, sink, segments);
@@ -362,12 +362,13 @@ private:
         integrate(first, last, scaled, sink);
     }
 
-    HWY_INLINE void classify(std::size_t first, std::size_t last, const Segments& segments, std::size_t at,
+    HWY_INLINE void classify(const Block& block, std::size_t first, std::size_t last, const Segments& segments,
                              ScaledSegmentSink& sink) const {
-        sink.scale = loadAt(limits_.scale + at);
+        sink.scale = loadAt(limits_.scale + block.at);
         if (frame_.classification == Classification::Preintegrated)
             return integrateScaled(first, last, segments, sink.scale, sink);
-        const Sample sample = sampleAt(*frame_.transfer, first, last, real(0.5f) * (segments.front + segments.back));
+        const auto middles = segmentMiddles<Orthographic>(block.dx, block.dy, block.in, block.out);
+        const Sample sample = segmentSample(frame_, batch_, block.j, middles, first, last, segments);
         const real path = frame_.scaleInvariant ? abs(segments.back - segments.front) : segments.length;
         sink.addSample(sample.r, sample.g, sample.b, sample.extinction * (sink.scale * path));
     }

@@ -42,14 +42,7 @@ std::vector<std::string> engineNames() {
 
 std::unique_ptr<Engine> makeEngine(const Scene& wanted, const EngineOptions& options) {
     const Scene scene = withVertexLight(withScalarsInRange(wanted));
-    const bool onlyReference = scene.settings.classification == Classification::Pre;
-    if (onlyReference && options.engine != "reference" && options.engine != "auto")
-        throw std::runtime_error(
-            fmt::format("engine '{}': only the reference engine draws with pre-classification; take reference or auto",
-                        options.engine));
-    const std::string name = options.engine != "auto" ? options.engine
-                             : onlyReference          ? "reference"
-                                                      : engines.front().name;
+    const std::string name = options.engine != "auto" ? options.engine : engines.front().name;
     for (const auto& engine : engines)
         if (name == engine.name) {
             const MakeEngine plain = [&](const Scene& part) {

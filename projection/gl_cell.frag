@@ -125,7 +125,7 @@ void main() {
     view = -normalize(viewForward + (pixel.x - centre.x) * viewRight + (pixel.y - centre.y) * viewDown);
 #endif
 #endif
-#if TETRALUX_FULL_LIGHT
+#if TETRALUX_FULL_LIGHT || TETRALUX_ATTRIBUTES
     setMiddle(cell, rho, dx, dy, pixel - centre);
 #endif
     float across = 0.0;

@@ -30,6 +30,7 @@ int shaderMode(Mode mode) {
         case Mode::Minimum:
             return 4;
         case Mode::Additive:
+        case Mode::DataAdditive:
         case Mode::Emission:
             return 5;
         case Mode::Absorption:
@@ -89,7 +90,10 @@ GlDefines variant(const RenderSettings& settings, const shading::VertexLight& ve
     defines.set("TETRALUX_GRADIENT", silhouette || levoy || lights > 0);
     const bool full = lights > 0 && !shading.plain();
     defines.set("TETRALUX_FULL_LIGHT", full);
-    defines.set("TETRALUX_ATTRIBUTES", full ? vertexLight.stride / 4 : 0);
+    const bool sampled = shades && settings.classification == Classification::Pre && vertexLight.sampleAt >= 0;
+    defines.set("TETRALUX_ATTRIBUTES", full || sampled ? vertexLight.stride / 4 : 0);
+    defines.set("TETRALUX_SAMPLE_AT", sampled ? vertexLight.sampleAt : -1);
+    defines.set("TETRALUX_SPECULAR_AT", vertexLight.specularAt);
     defines.set("TETRALUX_NORMAL_AT", vertexLight.normalAt);
     defines.set("TETRALUX_TENSOR_AT", vertexLight.tensorAt);
     defines.set("TETRALUX_SHADOW_AT", vertexLight.shadowAt);

@@ -99,9 +99,10 @@ preint::PreintegrationTable buildTable(const Scene& scene, const preint::Transfe
     options.evenTexelsFirst = true;
     const double largestScale = scene.settings.largestExtinctionScale;
     if (integralOf(scene.settings.mode) == preint::Integral::ScaleInvariant) {
-        if (largestScale == 0.0) return preint::buildScaleInvariantTable(exact, 0.0, 1.0, options);
-        // scaled extinction is that of a longer path: the table of paths holds both
-        return preint::buildStandardTable(exact, 0.0, 1.0, largestScale, options);
+        const bool adds = addsUp(scene.settings.mode);
+        if (largestScale == 0.0 && !adds) return preint::buildScaleInvariantTable(exact, 0.0, 1.0, options);
+        // scaled extinction is that of a longer path: the table of paths holds both, and what hides nothing
+        return preint::buildStandardTable(exact, 0.0, 1.0, adds ? std::max(largestScale, 1.0) : largestScale, options);
     }
     return preint::buildStandardTable(exact, 0.0, 1.0, longestEdge(*scene.mesh, units) * std::max(largestScale, 1.0),
                                       options);
@@ -124,7 +125,7 @@ public:
             prepare_["table"] = watch.lap();
             const auto& shading = scene.settings.shading;
             fullLight_ = shading.lit() && !shading.plain();
-            layout_.attributes = fullLight_ && vertexLight_->any();
+            layout_.attributes = (fullLight_ && vertexLight_->any()) || vertexLight_->sampleAt >= 0;
             prepare_["light"] = watch.lap();
         }
         order_.emplace(scene, modeLooksUp(mode()) && !orderFree(mode()) && orderMatters(), modeLooksUp(mode()));

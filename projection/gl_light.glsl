@@ -15,7 +15,11 @@ uniform vec4 diffuseAndSpecular;           // reflection, reflection, transmissi
 uniform vec3 kappaGammaAsymmetry;
 uniform vec3 ambientColor;
 uniform float perLength;                   // scene lengths per mesh unit
+#else
+const float perLength = 0.0;
+#endif
 
+#if TETRALUX_FULL_LIGHT || TETRALUX_ATTRIBUTES
 vec3 middlePlace;   // of the segment, from the eye, scene lengths
 vec4 middleWeight;  // barycentric coordinates there
 
@@ -53,7 +57,9 @@ void setMiddle(CellRecord cell, vec2 rho, float dx, float dy, vec2 fromCentre) {
     middleWeight /= max(middleWeight.x + middleWeight.y + middleWeight.z + middleWeight.w, 1e-30);
 #endif
 }
+#endif
 
+#if TETRALUX_FULL_LIGHT
 // What of light i arrives at the middle, shadows apart, and the direction to it.
 vec3 arriving(int i, vec3 view, out vec3 towards) {
     towards = lightPlace[i];
@@ -79,6 +85,12 @@ vec3 lightInFull(vec3 meanColor, float opacity, float side, vec3 view, vec4 grad
     model.kappa = kappaGammaAsymmetry.x;
     model.gamma = kappaGammaAsymmetry.y;
     model.asymmetry = kappaGammaAsymmetry.z;
+
+#if TETRALUX_SPECULAR_AT >= 0
+    float specularFactor = attributeAt(TETRALUX_SPECULAR_AT);
+    model.specular *= specularFactor;
+    model.specularThrough *= specularFactor;
+#endif
 
     vec3 light = ambientColor * meanColor;
     LitPoint point;

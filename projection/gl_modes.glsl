@@ -8,8 +8,12 @@ uniform vec2 support[TETRALUX_SUPPORTS];  // scalars with extinction
 #endif
 
 // Post-classification (Kraus 2005, Equations 10 and 11): the sample in the middle stands for the segment. On the table's diagonal
-// stand colour and extinction themselves.
+// stand colour and extinction themselves. Pre-classification takes those of the vertices, interpolated.
 Gathered sampledSegment(float front, float back, float path) {
+#if TETRALUX_SAMPLE_AT >= 0
+    float extinction = attributeAt(TETRALUX_SAMPLE_AT + 3);
+    return Gathered(vectorAt(TETRALUX_SAMPLE_AT), extinction, extinction * path, 0.0);
+#else
     float s = 0.5 * (front + back);
     int zone = 0;
 #if TETRALUX_INTERFACES
@@ -19,6 +23,7 @@ Gathered sampledSegment(float front, float back, float path) {
 #endif
     vec4 entry = tableEntry(zone, s, s, 0.0);
     return Gathered(entry.rgb, entry.w, entry.w * path, 0.0);
+#endif
 }
 
 #if TETRALUX_MODE == TETRALUX_MODE_ADDITIVE

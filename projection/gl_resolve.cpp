@@ -39,6 +39,7 @@ void resolveOrderFree(Image& image, const Scene& scene, const Camera& camera, co
             case Mode::Average:
                 return gathered.y > 0.0f ? colorOf(first / second) : glm::vec4(0);
             case Mode::Additive:
+            case Mode::DataAdditive:
                 return {glm::vec3(gathered), std::min(gathered.w, 1.0f)};
             case Mode::Emission:
                 return {glm::vec3(gathered), 0.0f};

@@ -8,7 +8,7 @@
 //   TETRALUX_FULL_LIGHT       anything but the plain lights of shading/cell_shading.glsl; TETRALUX_ATTRIBUTES: vertices have some
 //   TETRALUX_DATA_SPACE       extinction is integrated over the scalar's variation
 //   TETRALUX_SCALE_INVARIANT  the table is a 2D one of that integral; without it a 3D one is looked up with the path as its length
-//   TETRALUX_SAMPLED          post-classification; TETRALUX_LINEAR_OPACITY its linear form
+//   TETRALUX_SAMPLED          post-classification, pre-classification where TETRALUX_SAMPLE_AT ≥ 0; TETRALUX_LINEAR_OPACITY: linear form
 //   TETRALUX_LIMITS           the view has pixel maps
 #define TETRALUX_MODE_VOLUME 0
 #define TETRALUX_MODE_MIP 1

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include <projection/light_shadows.h>
+#include <projection/vertex_samples.h>
 
 namespace tetralux::projection {
 
@@ -22,7 +23,7 @@ LightModelFloats lightModelFloats(const shading::ShadingSettings& settings) {
     model.specular = static_cast<float>(material.specular);
     model.diffuseThrough = through * static_cast<float>(material.diffuseTransmission);
     model.specularThrough = through * static_cast<float>(material.specularTransmission);
-    model.kappa = static_cast<float>(settings.anisotropy.kappa);
+    model.kappa = static_cast<float>(settings.wardExponent());
     model.gamma = static_cast<float>(settings.anisotropy.gamma);
     model.asymmetry = static_cast<float>(material.phaseAsymmetry);
     model.ambient = glm::vec3(settings.ambient * settings.ambientColor);
@@ -50,8 +51,10 @@ std::vector<FrameLight> frameLights(const shading::ShadingSettings& settings, co
 
 std::shared_ptr<const shading::VertexLight> vertexLightOf(const Scene& scene) {
     if (scene.vertexLight) return scene.vertexLight;
-    shading::VertexLight light = shading::vertexLight(*scene.mesh, scene.settings.shading);
+    shading::VertexLight light = shading::vertexLight(*scene.mesh, scene.settings.shading, samplesVertices(scene));
     if (light.shadowAt >= 0) addShadows(scene, light);
+    if (light.specularAt >= 0) addSpecularFactors(scene, light);
+    if (light.sampleAt >= 0) addSamples(scene, light);
     return std::make_shared<const shading::VertexLight>(std::move(light));
 }
 

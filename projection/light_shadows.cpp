@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 
 #include <tbb/blocked_range.h>
@@ -141,6 +142,15 @@ double shadowAt(const ShadowRays& rays, const Light& light, const glm::dvec3& or
 }
 
 }  // namespace
+
+ShadowAt shadowsOf(const Scene& scene) {
+    const auto rays = std::make_shared<const ShadowRays>(scene);
+    const glm::dvec3 beside = besideVertex * scene.mesh->bounds.diagonal() * besideDirection;
+    return [mesh = scene.mesh, rays, beside, softness = scene.settings.shading.shadows.softness](
+               const Light& light, const glm::dvec3& place) {
+        return light.kind == Light::Kind::Head ? 1.0 : shadowAt(*rays, light, place + beside, softness);
+    };
+}
 
 void addShadows(const Scene& scene, shading::VertexLight& light) {
     const auto& settings = scene.settings.shading;

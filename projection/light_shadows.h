@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+
 #include <projection/scene.h>
 
 namespace tetralux::projection {
@@ -11,5 +13,9 @@ namespace tetralux::projection {
 /// (ShadowSettings::softness) is the mean over 16 points of a disc across the direction to it. Head lights cast
 /// none: 1. They hold as long as mesh, transfer function, mode and lights do.
 void addShadows(const Scene& scene, shading::VertexLight& light);
+
+/// The same at any place (mesh units) for one light. Holds the mesh.
+using ShadowAt = std::function<double(const shading::Light& light, const glm::dvec3& place)>;
+ShadowAt shadowsOf(const Scene& scene);
 
 }  // namespace tetralux::projection

@@ -104,11 +104,12 @@ void readSide(const JsonPlace& place, shading::MaterialSide& side) {
 
 void readMaterial(const JsonPlace& place, shading::Material& material) {
     requireObject(place, {"diffuse", "specular", "diffuse_transmission", "specular_transmission", "front", "back",
-                          "phase_asymmetry"});
+                          "phase_asymmetry", "specular_by_gradient"});
     setFactor(place, "diffuse", material.diffuse);
     setFactor(place, "specular", material.specular);
     setFactor(place, "diffuse_transmission", material.diffuseTransmission);
     setFactor(place, "specular_transmission", material.specularTransmission);
+    ifThere(place, "specular_by_gradient", [&](const JsonPlace& on) { material.specularByGradient = on.boolean(); });
     ifThere(place, "front", [&](const JsonPlace& side) { readSide(side, material.front); });
     ifThere(place, "back", [&](const JsonPlace& side) { readSide(side, material.back); });
     ifThere(place, "phase_asymmetry", [&](const JsonPlace& asymmetry) {
@@ -174,7 +175,10 @@ void setAnisotropyParameter(const std::string& what, const std::string& key, dou
         if (!(value >= least && value <= most))
             throw std::runtime_error(
                 fmt::format("{}: {} is {}; give a number from {} to {}", what, key, value, least, most));
-        target = static_cast<std::remove_reference_t<decltype(target)>>(value);
+        if constexpr (std::is_same_v<decltype(target), int&>)
+            target = static_cast<int>(value);
+        else
+            target = value;
     };
     if (key == "radius") return set(settings.radius, 0.5, 50);
     if (key == "interval") return set(settings.interval, 1e-6, 1);

@@ -7,9 +7,10 @@
 ///                 {"type": "point", "position": [x, y, z], "attenuation": [constant, linear, quadratic]},
 ///                 {"type": "head"}],
 ///      "material": {"diffuse": 1, "specular": 1, "diffuse_transmission": 1, "specular_transmission": 1,
-///                   "front": {"specular": [r, g, b], "exponent": 32}, "back": {…}, "phase_asymmetry": 0.3},
+///                   "front": {"specular": [r, g, b], "exponent": 32}, "back": {…}, "phase_asymmetry": 0.3,
+///                   "specular_by_gradient": false},
 ///      "reflectance": "phong", "normals": "cell",
-///      "anisotropy": {"radius": 4, "interval": 0.05, "samples": 11, "smoothing": 0, "kappa": 16, "gamma": 10},
+///      "anisotropy": {"radius": 4, "interval": 0.05, "samples": 4, "smoothing": 0, "kappa": 16, "gamma": 10},
 ///      "shadows": true or {"softness": 0.1}}
 #pragma once
 

@@ -8,8 +8,12 @@
 namespace tetralux::projection {
 
 preint::Integral integralOf(Mode mode) {
-    const bool overData = mode == Mode::ScaleInvariant || mode == Mode::DataContribution;
+    const bool overData = mode == Mode::ScaleInvariant || mode == Mode::DataAdditive || mode == Mode::DataContribution;
     return overData ? preint::Integral::ScaleInvariant : preint::Integral::Standard;
+}
+
+bool addsUp(Mode mode) {
+    return mode == Mode::Additive || mode == Mode::DataAdditive || mode == Mode::Emission;
 }
 
 bool orderFree(Mode mode) {
@@ -23,6 +27,7 @@ bool orderFree(Mode mode) {
         case Mode::Minimum:
         case Mode::Average:
         case Mode::Additive:
+        case Mode::DataAdditive:
         case Mode::Emission:
         case Mode::Absorption:
         case Mode::Contribution:

@@ -17,7 +17,8 @@ enum class Mode {
     Average,  ///< the length-weighted mean of the scalar, coloured by c
     Additive,  ///< C = ∫ c τ dt, a peak adds α₀·colour; nothing hides anything. Alpha = min(1, ∫ τ dt + Σ α₀): how much
                ///< of the background goes. Colours may exceed 1
-    Emission,  ///< the same light with alpha 0 (Max 1995, "emission only"): it is added to the background
+    DataAdditive,  ///< Additive with |ds| in dt's place: what counts is how much the scalar varies
+    Emission,      ///< the same light with alpha 0 (Max 1995, "emission only"): it is added to the background
     Absorption,  ///< black, alpha = 1 − exp(−∫ τ dt) (Max 1995, "absorption only"): a radiograph over its background
     FirstHit,  ///< the colour of the first segment with α > 0, opaque
     Depth,     ///< grey, opaque: 1 at the nearest, 0 at the farthest end of the mesh's bounding sphere (depthRange),
@@ -26,8 +27,12 @@ enum class Mode {
     DataContribution  ///< the same with ∫ τ |ds|
 };
 
-/// The integral that a mode's segments use: the scale-invariant one in ScaleInvariant and DataContribution.
+/// The integral that a mode's segments use: the scale-invariant one in ScaleInvariant, DataAdditive and
+/// DataContribution.
 preint::Integral integralOf(Mode mode);
+
+/// Whether the light of segments adds up, hidden by nothing.
+bool addsUp(Mode mode);
 
 /// Whether the order of the cells along a ray does not matter.
 bool orderFree(Mode mode);

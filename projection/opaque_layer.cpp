@@ -14,6 +14,7 @@
 
 #include <mesh/plane_cut.h>
 #include <projection/arriving_light.h>
+#include <projection/corner_normals.h>
 #include <projection/ray_triangle.h>
 
 namespace tetralux::projection {
@@ -43,6 +44,7 @@ OpaqueLayer::OpaqueLayer(const Scene& scene, const OpaqueObjects& objects)
       shading_(scene.settings.shading),
       sliceCount_(objects.slices.size()),
       surfaces_(objects.surfaces) {
+    if (shading_.needsShadows() && !surfaces_.empty()) shadowAt_ = shadowsOf(scene);
     std::uint32_t object = 0;
     for (const Slice& slice : objects.slices) {
         const mesh::SurfaceMesh cut = mesh::cutByPlane(*scene.mesh, slice.point, slice.normal);
@@ -62,26 +64,41 @@ void OpaqueLayer::append(const mesh::SurfaceMesh& part, std::uint32_t object) {
     const bool ofCells = part.association == mesh::Association::Cell && !part.scalars.empty();
     positions_.insert(positions_.end(), part.positions.begin(), part.positions.end());
     if (!ofCells) scalars_.insert(scalars_.end(), part.scalars.begin(), part.scalars.end());
+    const bool smooth = object >= sliceCount_ && shading_.normals == shading::Normals::Smooth;
+    const auto normals = smooth ? cornerNormals(part) : std::vector<std::array<glm::dvec3, 3>>();
     for (std::size_t i = 0; i < part.triangles.size(); ++i) {
         const auto& [a, b, c] = part.triangles[i];
-        triangles_.push_back({{base + a, base + b, base + c}, ofCells ? part.scalars[i] : 0.0, object});
+        triangles_.push_back({{base + a, base + b, base + c}, ofCells ? part.scalars[i] : 0.0, object, {}});
+        if (smooth) triangles_.back().normals = normals[i];
     }
 }
 
-glm::dvec3 OpaqueLayer::surfaceColor(const OpaqueSurface& surface, const Triangle& triangle, const RayFrame& ray,
-                                     double distance) const {
-    if (surface.flat) return surface.color;
+/// Unit, to the eye's side of the triangle; zero where it has no area.
+glm::dvec3 OpaqueLayer::normalAt(const Triangle& triangle, const TriangleCrossing& where,
+                                 const glm::dvec3& direction) const {
     const auto& [a, b, c] = triangle.corners;
     const glm::dvec3 across = glm::cross(positions_[b] - positions_[a], positions_[c] - positions_[a]);
-    const double twiceArea = glm::length(across);
-    if (twiceArea == 0) return surface.color;
-    const glm::dvec3 normal = across / (glm::dot(across, ray.direction) > 0 ? -twiceArea : twiceArea);
+    glm::dvec3 normal = across;
+    const auto& [na, nb, nc] = triangle.normals;
+    const glm::dvec3 smooth(where.blend(na.x, nb.x, nc.x), where.blend(na.y, nb.y, nc.y),
+                            where.blend(na.z, nb.z, nc.z));
+    if (glm::dot(smooth, smooth) > 0) normal = smooth;
+    const double size = glm::length(normal);
+    return size > 0 ? normal / (glm::dot(across, direction) > 0 ? -size : size) : glm::dvec3(0);
+}
+
+glm::dvec3 OpaqueLayer::surfaceColor(const OpaqueSurface& surface, const Triangle& triangle,
+                                     const TriangleCrossing& where, const RayFrame& ray, double distance) const {
+    if (surface.flat) return surface.color;
+    const glm::dvec3 normal = normalAt(triangle, where, ray.direction);
+    if (normal == glm::dvec3(0)) return surface.color;
     glm::dvec3 light = shading_.ambient * shading_.ambientColor;
-    if (!shading_.lit()) light += (1.0 - glm::min(light, 1.0)) * -glm::dot(normal, ray.direction);
+    if (!shading_.lit()) light += (1.0 - glm::min(light, 1.0)) * std::max(0.0, -glm::dot(normal, ray.direction));
+    const glm::dvec3 place = ray.origin + distance * ray.direction;
     for (const shading::Light& source : shading_.lights) {
-        const ArrivingLight arriving =
-            arrivingLight(source, ray.origin + distance * ray.direction, ray.direction, distance);
-        light += std::max(0.0, glm::dot(normal, arriving.towards)) * arriving.color;
+        const ArrivingLight arriving = arrivingLight(source, place, ray.direction, distance);
+        const double facing = glm::dot(normal, arriving.towards);
+        if (facing > 0) light += (shadowAt_ ? shadowAt_(source, place) : 1.0) * facing * arriving.color;
     }
     return surface.color * glm::min(light, 1.0);
 }
@@ -229,7 +246,8 @@ private:
     glm::dvec3 colorOf(const Triangle& triangle, const TriangleCrossing& where, const RayFrame& ray,
                        double distance) const {
         if (!isSlice(triangle))
-            return layer_.surfaceColor(layer_.surfaces_[triangle.object - layer_.sliceCount_], triangle, ray, distance);
+            return layer_.surfaceColor(layer_.surfaces_[triangle.object - layer_.sliceCount_], triangle, where, ray,
+                                       distance);
         const auto& [a, b, c] = triangle.corners;
         const std::vector<double>& scalars = layer_.scalars_;
         const double scalar = layer_.association_ == mesh::Association::Cell

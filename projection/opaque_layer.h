@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include <projection/camera.h>
+#include <projection/light_shadows.h>
 #include <projection/opaque_objects.h>
 #include <projection/pixel_maps.h>
 #include <projection/scene.h>
@@ -18,11 +19,13 @@
 namespace tetralux::projection {
 
 struct RayFrame;
+struct TriangleCrossing;
 
 /// One of a scene's map sources; it comes behind clip planes, which leave out parts of slices (surfaces stay whole).
 class OpaqueLayer final : public PixelMapSource {
 public:
-    /// Cuts the slices out of the scene's mesh; its transfer function colours them, its lights fall on the surfaces.
+    /// Cuts the slices out of the scene's mesh; its transfer function colours them, its lights fall on the surfaces,
+    /// through the volume if it casts shadows; surfaces cast none.
     /// \throws std::runtime_error when a slice misses the mesh.
     OpaqueLayer(const Scene& scene, const OpaqueObjects& objects);
 
@@ -32,17 +35,20 @@ private:
     class Frame;
     struct Triangle {
         std::array<mesh::PointIndex, 3> corners;
-        double scalar;         // cell data: of the cell
-        std::uint32_t object;  // slices first
+        double scalar;                        // cell data: of the cell
+        std::uint32_t object;                 // slices first
+        std::array<glm::dvec3, 3> normals{};  // of smooth surfaces, at the corners
     };
 
     void append(const mesh::SurfaceMesh& part, std::uint32_t object);
-    glm::dvec3 surfaceColor(const OpaqueSurface& surface, const Triangle& triangle, const RayFrame& ray,
-                            double distance) const;
+    glm::dvec3 normalAt(const Triangle& triangle, const TriangleCrossing& where, const glm::dvec3& direction) const;
+    glm::dvec3 surfaceColor(const OpaqueSurface& surface, const Triangle& triangle, const TriangleCrossing& where,
+                            const RayFrame& ray, double distance) const;
 
     mesh::Association association_;  // of the mesh's scalar
     preint::TransferFunction transferFunction_;
     shading::ShadingSettings shading_;
+    ShadowAt shadowAt_;  // of the volume; empty: it casts none
     std::size_t sliceCount_;
     std::vector<OpaqueSurface> surfaces_;
     std::vector<glm::dvec3> positions_;  // of all slices and surfaces

@@ -61,7 +61,7 @@ glsl::LightModel modelOf(const shading::ShadingSettings& settings) {
             material.specular,
             through * material.diffuseTransmission,
             through * material.specularTransmission,
-            settings.anisotropy.kappa,
+            settings.wardExponent(),
             settings.anisotropy.gamma,
             material.phaseAsymmetry};
 }
@@ -72,7 +72,12 @@ glm::dvec3 litColor(const Scene& scene, const SegmentToLight& segment) {
     const shading::ShadingSettings& settings = scene.settings.shading;
     const shading::VertexLight& kept = *scene.vertexLight;
     const AttributesAt attributes(scene, segment);
-    const glsl::LightModel model = modelOf(settings);
+    glsl::LightModel model = modelOf(settings);
+    if (kept.specularAt >= 0) {
+        const double factor = attributes.at(kept.specularAt);
+        model.specular *= factor;
+        model.specularThrough *= factor;
+    }
     glsl::LitPoint point{};
     point.normal = segment.normal;
     if (kept.normalAt >= 0 && !segment.cut) {

@@ -277,7 +277,7 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
     const double length = segment.tOut - segment.tIn;
     const glm::dvec3 middle = ray.origin + (0.5 * segment.tIn + 0.5 * segment.tOut) * ray.direction;
     const auto [unlitColor, plainDepth, smooth] = unshadedSegment(exact, scene, segment, middle);
-    const bool hides = scene.settings.mode != Mode::Additive && scene.settings.mode != Mode::Emission;
+    const bool hides = !addsUp(scene.settings.mode);
     const bool linear = scene.settings.classification == Classification::PostLinear;
     glm::dvec3 meanColor = unlitColor;
     double depth = plainDepth, plain = plainDepth;
@@ -378,6 +378,7 @@ glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, const preint::ExactInte
             return {function.colorAt(smallest), 1.0};
         }
         case Mode::Additive:
+        case Mode::DataAdditive:
         case Mode::Emission: {
             glm::dvec3 color(0);
             double sum = 0;

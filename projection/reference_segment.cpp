@@ -110,8 +110,7 @@ UnshadedSegment sampled(const ExactIntegral& exact, const Scene& scene, const Ra
 UnshadedSegment unshadedSegment(const ExactIntegral& exact, const Scene& scene, const RaySegment& segment,
                                 const glm::dvec3& middle) {
     const preint::Integral integral = integralOf(scene.settings.mode);
-    if (scene.settings.mode == Mode::Additive || scene.settings.mode == Mode::Emission)
-        return emission(exact, segment, integral);
+    if (addsUp(scene.settings.mode)) return emission(exact, segment, integral);
     if (scene.settings.classification != Classification::Preintegrated) return sampled(exact, scene, segment, middle);
     const double length = segment.tOut - segment.tIn;
     const auto whole = exact.segment(segment.scalarIn, segment.scalarOut, length, integral);

@@ -29,6 +29,7 @@ struct LitPoint {
     vec3 tangent, bitangent;  // unit, with the normal a frame; for anisotropic lobes only, like what follows
     vec3 major;               // x, y: cosine and sine of twice the angle from the tangent to the major direction (0, 0: none)
     real along, across;       // the lobe's u and v
+    real height;              // Ward: how much brighter the lobe is in its middle for being narrower than an isotropic one
 };
 
 // Any unit vector across n (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
@@ -65,7 +66,9 @@ TETRALUX_GLSL_FUNCTION void setAnisotropy(LightModel model, vec3 diagonal, vec3 
     point.bitangent = b;
     point.major = vec3(difference * inverse, mixed * inverse, real(0.0));
     // u of Ward grows to κ·e⁶ at most: what is narrower would glitter from pixel to pixel
-    real ward = model.kappa * exp(min(model.gamma * log(ratio), real(6.0)));
+    real narrowing = exp(real(0.5) * min(model.gamma * log(ratio), real(6.0)));
+    point.height = narrowing;
+    real ward = model.kappa * narrowing * narrowing;
     real lafortune = real(1.0) - real(2.0) * exp(model.gamma * (real(1.0) - ratio));
     if (model.kind == 2) {
         point.along = ward;
@@ -85,13 +88,14 @@ TETRALUX_GLSL_FUNCTION real majorProduct(LitPoint point, vec3 a, vec3 b) {
     return real(0.5) * (whole + point.major.x * straight + point.major.y * crossed);
 }
 
-// Gaussian in the slopes of the half-way vector (Ward's Equation 5a without its normalization √(uv)/π): exp(−tan²θ(u cos²φ + v sin²φ)).
+// Gaussian in the slopes of the half-way vector (Ward's Equation 5a, its normalization √(uv)/π over that of an isotropic lobe, κ/π):
+// √(u/κ)·exp(−tan²θ(u cos²φ + v sin²φ)). The light that a fibre's highlight does not send along it makes it brighter.
 TETRALUX_GLSL_FUNCTION real wardLobe(LitPoint point, vec3 halfway) {
     real facing = point.side * dot(halfway, point.normal);
     real along = majorProduct(point, halfway, halfway);
     real across = max(dot(halfway, halfway) - facing * facing - along, real(0.0));
     real slopes = (point.along * along + point.across * across) / max(facing * facing, real(1e-4));
-    return select(facing > real(0.0), exp(-min(slopes, real(80.0))), real(0.0));
+    return select(facing > real(0.0), point.height * exp(-min(slopes, real(80.0))), real(0.0));
 }
 
 // (u·l₂v₂ + v·l₁v₁ + l_n v_n)^exponent; u = v = −1 is Phong.

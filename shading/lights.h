@@ -28,8 +28,8 @@ struct Light {
 enum class Reflectance {
     Phong,       ///< about 2n(n·l) − l
     BlinnPhong,  ///< half-way vector about n
-    Ward,        ///< exponents κ(λ₂/λ₁)^γ along the major direction and κ across it (Ament & Dachsbacher 2015)
-    Lafortune,   ///< u = 2(1 − exp(γ(1 − λ₂/λ₁))) − 1 along it, v = −1 across, 1 along n
+    Ward,  ///< exponents κ(λ₂/λ₁)^γ along the major direction and κ across it (Ament & Dachsbacher 2015), normalized
+    Lafortune,        ///< u = 2(1 − exp(γ(1 − λ₂/λ₁))) − 1 along it, v = −1 across, 1 along n
     HenyeyGreenstein  ///< phase function instead of diffuse and specular light; needs no gradient
 };
 
@@ -50,6 +50,10 @@ struct Material {
     double diffuseTransmission = 1, specularTransmission = 1;  ///< factors of transmission
     MaterialSide front, back;                                  ///< transmission takes their mean
     double phaseAsymmetry = 0.3;                               ///< Henyey–Greenstein's g, −1 … 1
+    /// k_s = |∇τ| (Ament & Dachsbacher 2015): both specular factors times the magnitude of extinction's gradient at the
+    /// vertices over its largest, so that only what looks like a surface shines. Isosurfaces do not count; 1 where
+    /// extinction is the same everywhere.
+    bool specularByGradient = false;
 };
 
 /// Anisotropy of the field's level sets about each vertex (shading/anisotropy.h), and what lobes make of it.
@@ -58,8 +62,11 @@ struct AnisotropySettings {
     double interval = 0.05;  ///< half-width in scalar, as a share of the field's range
     int samples = 4;         ///< points that stand for one cell
     int smoothing = 0;       ///< how often tensors are averaged with those of neighbouring vertices
-    double kappa = 16.0;     ///< κ: exponent of an isotropic Ward lobe
-    double gamma = 10.0;     ///< γ: how strongly anisotropy counts
+    /// κ: exponent of an isotropic Ward lobe, and across fibres of any. Nothing: ShadingSettings::exponent/8, a
+    /// quarter of what makes that lobe Blinn and Phong's (exp(−n/2·tan²θ) = cosⁿθ·(1 + O(θ⁴))): across a fibre a
+    /// highlight reaches twice as far as theirs, along it less far from (λ₂/λ₁)^γ = 4 on. That is what draws it out.
+    std::optional<double> kappa;
+    double gamma = 10.0;  ///< γ: how strongly anisotropy counts
 };
 
 struct ShadowSettings {
@@ -85,6 +92,7 @@ struct ShadingSettings {
     ShadowSettings shadows;
 
     bool lit() const { return !lights.empty(); }
+    double wardExponent() const { return anisotropy.kappa.value_or(exponent / 8); }  ///< κ
     bool needsGradient() const { return silhouette || gradientOpacity > 0 || lit(); }
     bool needsAnisotropy() const {
         return lit() && (reflectance == Reflectance::Ward || reflectance == Reflectance::Lafortune);

@@ -9,17 +9,18 @@
 
 namespace tetralux::shading {
 
-VertexLight vertexLight(const mesh::ScalarMesh& mesh, const ShadingSettings& settings) {
+VertexLight vertexLight(const mesh::ScalarMesh& mesh, const ShadingSettings& settings, bool sampled) {
     VertexLight light;
-    if (!settings.lit()) return light;
     int floats = 0;
     const auto take = [&](int count) {
         floats += count;
         return floats - count;
     };
-    if (settings.normals == Normals::Smooth) light.normalAt = take(3);
+    if (settings.lit() && settings.normals == Normals::Smooth) light.normalAt = take(3);
     if (settings.needsAnisotropy()) light.tensorAt = take(6);
     if (settings.needsShadows()) light.shadowAt = take(static_cast<int>(settings.lights.size()));
+    if (settings.lit() && settings.material.specularByGradient) light.specularAt = take(1);
+    if (sampled) light.sampleAt = take(4);
     if (floats == 0) return light;
     light.stride = (floats + 3) / 4 * 4;
     light.values.assign(mesh.positions.size() * static_cast<std::size_t>(light.stride), 0.0f);
@@ -37,6 +38,7 @@ VertexLight vertexLight(const mesh::ScalarMesh& mesh, const ShadingSettings& set
         if (light.tensorAt >= 0)
             std::transform(tensors[point].begin(), tensors[point].end(), values + light.tensorAt,
                            [](double moment) { return static_cast<float>(moment); });
+        if (light.specularAt >= 0) values[light.specularAt] = 1.0f;
         if (light.shadowAt >= 0) std::fill_n(values + light.shadowAt, settings.lights.size(), 1.0f);
     }
     return light;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// What light needs to know at the vertices: computed once, kept, interpolated linearly to the middle of each segment.
+/// What light and pre-classification need to know at the vertices: computed once, kept, interpolated linearly to the
+/// middle of each segment.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +15,11 @@ namespace tetralux::shading {
 /// `stride` floats per point, a multiple of four. Each `…At` is the place of an attribute among them, −1: not there.
 struct VertexLight {
     int stride = 0;
-    int normalAt = -1;  ///< three: gradient (vertex_gradients.h)
-    int tensorAt = -1;  ///< six: xx, yy, zz, xy, xz, yz (anisotropy.h)
-    int shadowAt = -1;  ///< one per light of ShadingSettings: transmittance to it
+    int normalAt = -1;    ///< three: gradient (vertex_gradients.h)
+    int tensorAt = -1;    ///< six: xx, yy, zz, xy, xz, yz (anisotropy.h)
+    int shadowAt = -1;    ///< one per light of ShadingSettings: transmittance to it
+    int specularAt = -1;  ///< one: Material::specularByGradient's factor
+    int sampleAt = -1;    ///< four: colour and extinction of pre-classification, per unit of scene units
     std::vector<float> values;
 
     bool any() const { return stride > 0; }
@@ -24,7 +27,8 @@ struct VertexLight {
     const float* of(std::size_t point) const { return values.data() + point * static_cast<std::size_t>(stride); }
 };
 
-/// The attributes that `settings` need, shadows left at 1 (they take a transfer function: projection/light_shadows.h).
-VertexLight vertexLight(const mesh::ScalarMesh& mesh, const ShadingSettings& settings);
+/// The attributes that `settings` need, and samples if they are `sampled`. What takes a transfer function is left for
+/// others to set (projection/light_shadows.h, projection/vertex_samples.h): shadows and specular factors are 1.
+VertexLight vertexLight(const mesh::ScalarMesh& mesh, const ShadingSettings& settings, bool sampled);
 
 }  // namespace tetralux::shading

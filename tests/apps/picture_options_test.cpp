@@ -50,7 +50,7 @@ TEST_F(PictureOptions, BadObjectsAreRefused) {
     write("broken.stl", "solid\nfacet nor");
     write("noise.ply", "\x01\x02");
     const std::string render = "render bucky:6 -o a.png --size 8x8";
-    expectRefused(render + " --surface missing.stl", {"missing.stl", "no such file"});
+    expectRefused(render + " --surface missing.stl", {"missing.stl", "no such surface file"});
     expectRefused(render + " --surface broken.stl", {"broken.stl"});
     expectRefused(render + " --surface noise.ply", {"noise.ply"});
     expectRefused(render + " --surface constant.json", {"constant.json", ".stl"});

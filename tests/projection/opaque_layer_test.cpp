@@ -252,6 +252,46 @@ TEST(OpaqueLayer, SurfacesAreLitFromTheSideThatIsSeen) {
     EXPECT_NEAR(color(), 0.1 + 2.0 / 4.0, 1e-6);
 }
 
+TEST(OpaqueLayer, SmoothNormalsBendFacesNotEdges) {
+    // A roof of two faces, 20° or 100° apart along the line x = 0.5.
+    const auto brightness = [](double halfAngle, double x) {
+        const double drop = 0.3 * std::tan(halfAngle);
+        mesh::SurfaceMesh roof;
+        roof.positions = {{0.2, 0.2, 0.5 - drop}, {0.5, 0.2, 0.5}, {0.8, 0.2, 0.5 - drop},
+                          {0.2, 0.8, 0.5 - drop}, {0.5, 0.8, 0.5}, {0.8, 0.8, 0.5 - drop}};
+        roof.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {4, 1, 5}};  // one of them turned the other way
+        OpaqueSurface surface;
+        surface.mesh = std::make_shared<const mesh::SurfaceMesh>(roof);
+        surface.color = {1, 1, 1};
+        Scene scene = test::sceneOf(test::boxMesh(3, linear), test::constantFunction(0.0));
+        scene.settings.shading.normals = shading::Normals::Smooth;
+        scene.settings.shading.ambient = 0;
+        scene.settings.shading.lights = {{glm::dvec3(0, 0, 1)}};
+        PixelMaps maps;
+        Camera camera = test::cameraAt({x, 0.5, 3}, {x, 0.5, 0.5}, 9, 9);
+        OpaqueLayer(scene, {{}, {surface}}).apply(camera, maps);
+        return static_cast<double>(maps.behind[4 * 9 + 4].x);
+    };
+    const double gentle = 10 * std::acos(-1.0) / 180, sharp = 50 * std::acos(-1.0) / 180;
+    EXPECT_NEAR(brightness(gentle, 0.499), 1.0, 1e-3) << "the ridge looks up";
+    EXPECT_NEAR(brightness(gentle, 0.201), std::cos(gentle), 1e-3) << "far from it the faces are as they are";
+    EXPECT_NEAR(brightness(sharp, 0.499), std::cos(sharp), 1e-6) << "an edge stays one";
+}
+
+TEST(OpaqueLayer, TheVolumeCastsShadowsOnSurfaces) {
+    OpaqueSurface box;
+    box.mesh = std::make_shared<const mesh::SurfaceMesh>(smallBox());
+    box.color = {1, 1, 1};
+    Scene scene = test::sceneOf(test::boxMesh(5, linear), test::constantFunction(1.5));
+    scene.settings.shading.ambient = 0;
+    scene.settings.shading.lights = {{glm::dvec3(0, 0, 1)}};
+    scene.settings.shading.shadows.on = true;
+    PixelMaps maps;
+    OpaqueLayer(scene, {{}, {box}}).apply(test::cameraAt({0.45, 0.45, 3}, {0.45, 0.45, 0.5}, 9, 9), maps);
+    const double thickness = 1 - (3 - maps.farthest[4 * 9 + 4]);  // of the volume above the box
+    EXPECT_NEAR(maps.behind[4 * 9 + 4].x, std::exp(-1.5 * thickness), 1e-5);
+}
+
 TEST(OpaqueLayer, ASliceBesideTheMeshIsRefused) {
     const Scene scene = test::sceneOf(test::boxMesh(3, linear), test::constantFunction(1.0));
     try {

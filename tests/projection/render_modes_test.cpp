@@ -28,6 +28,7 @@ const std::map<Mode, std::string> modes{{Mode::Standard, "Standard"},
                                         {Mode::Minimum, "Minimum"},
                                         {Mode::Average, "Average"},
                                         {Mode::Additive, "Additive"},
+                                        {Mode::DataAdditive, "DataAdditive"},
                                         {Mode::Emission, "Emission"},
                                         {Mode::Absorption, "Absorption"},
                                         {Mode::FirstHit, "FirstHit"},
@@ -106,8 +107,8 @@ TEST_P(Modes, EnginesAgreeOnIsosurfaces) {
 
 INSTANTIATE_TEST_SUITE_P(All, Modes,
                          testing::Values(Mode::Standard, Mode::ScaleInvariant, Mode::Mip, Mode::Minimum, Mode::Average,
-                                         Mode::Additive, Mode::Emission, Mode::Absorption, Mode::FirstHit, Mode::Depth,
-                                         Mode::Contribution, Mode::DataContribution),
+                                         Mode::Additive, Mode::DataAdditive, Mode::Emission, Mode::Absorption,
+                                         Mode::FirstHit, Mode::Depth, Mode::Contribution, Mode::DataContribution),
                          [](const auto& suite) { return modes.at(suite.param); });
 
 TEST(OrderFreeModes, SpendNoTimeInSorting) {
@@ -131,12 +132,13 @@ INSTANTIATE_TEST_SUITE_P(Both, Integrals, testing::Values(Mode::Standard, Mode::
                          [](const auto& suite) { return modes.at(suite.param); });
 
 TEST_P(Integrals, EnginesAgreeOnClassifications) {
-    for (const Classification classification : {Classification::Post, Classification::PostLinear}) {
+    for (const auto& [classification, name] :
+         {std::pair(Classification::Post, " post"), std::pair(Classification::PostLinear, " post linear"),
+          std::pair(Classification::Pre, " pre")}) {
         Scene scene = fieldScene("bucky:12", GetParam());
         scene.settings.classification = classification;
         // the linear form is clamped: kinks on every pixel
-        expectEnginesAgree(scene, cameraOf(scene, false), {3e-4, 5e-3},
-                           modes.at(GetParam()) + (classification == Classification::Post ? " post" : " post linear"));
+        expectEnginesAgree(scene, cameraOf(scene, false), {3e-4, 5e-3}, modes.at(GetParam()) + name);
     }
 }
 

@@ -48,7 +48,7 @@ TEST(LightModel, PhaseFunctionIntegratesToOne) {
     }
 }
 
-// ∫ exp(−u x² − v y²) over all slopes x, y of the half-way vector is π/√(uv): the normalization that Ward takes out.
+// ∫ √(u/κ)·exp(−u x² − κ y²) over all slopes x, y of the half-way vector is π/κ, however narrow the lobe is.
 TEST(LightModel, WardLobeHasTheNormOfItsSlopes) {
     const LightModel model = modelOf(2);
     const vec3 tensor(0.3, 0.2, 0.0);  // major direction x; ratio 1.5
@@ -63,7 +63,7 @@ TEST(LightModel, WardLobeHasTheNormOfItsSlopes) {
             const double x = reachX * ((2.0 * i + 1) / n - 1), y = reachY * ((2.0 * k + 1) / n - 1);
             sum += wardLobe(point, normalize(vec3(x, y, 1))) * (2 * reachX / n) * (2 * reachY / n);
         }
-    EXPECT_NEAR(sum * std::sqrt(point.along * point.across) / pi, 1, 1e-4);
+    EXPECT_NEAR(sum * 16 / pi, 1, 1e-4);
 }
 
 TEST(LightModel, WardIsNarrowAlongTheMajorDirection) {
@@ -73,7 +73,7 @@ TEST(LightModel, WardIsNarrowAlongTheMajorDirection) {
     const LitPoint point = pointOf(model, vec3(0, 0, 1), vec3(0, 0, 1), diagonal, others);
     const vec3 across(-axis.y, axis.x, 0);
     const auto lobeAt = [&](const vec3& slope) { return wardLobe(point, normalize(vec3(0, 0, 1) + 0.1 * slope)); };
-    EXPECT_NEAR(lobeAt(across), std::exp(-16 * 0.01), 1e-6);
+    EXPECT_NEAR(lobeAt(across), std::exp(3 - 16 * 0.01), 1e-6);  // the bound of u, κ·e⁶
     EXPECT_LT(lobeAt(axis), 1e-6);
 }
 

@@ -137,6 +137,7 @@ projection::Scene withChoice(projection::Scene scene, const EngineChoice& choice
     scene.settings.table.size = choice.tableSize;
     if (choice.tableError > 0.0) scene.settings.table.wantedError = choice.tableError;
     scene.settings.order = choice.order;
+    scene.settings.everyNode = choice.everyNode;
     scene.settings.skipInvisible = choice.skipInvisible;
     scene.settings.earlyTermination = choice.earlyTermination;
     return scene;
@@ -164,6 +165,7 @@ std::string EngineChoice::setting() const {
     if (tableSize > 0) parts.push_back(fmt::format("table {}", tableSize));
     if (tableError > 0.0) parts.push_back(fmt::format("error {:g}", tableError));
     if (order != projection::OrderMethod::Auto) parts.push_back(orderName(order));
+    if (everyNode) parts.emplace_back("every node");
     if (!skipInvisible) parts.emplace_back("all cells");
     if (!earlyTermination) parts.emplace_back("to the end");
     if (threads > 0) parts.push_back(fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"));

@@ -29,7 +29,7 @@ struct EngineChoice {
     int threads = 0;          ///< 0: all
     double tableError = 0.0;  ///< 0: the default
     projection::OrderMethod order = projection::OrderMethod::Auto;
-    bool skipInvisible = true, earlyTermination = true;  ///< as RenderSettings has them
+    bool everyNode = false, skipInvisible = true, earlyTermination = true;  ///< as RenderSettings has them
 
     bool asksForTable() const { return tableSize > 0 || tableError > 0.0; }
     std::string name() const;     ///< "cpu", "gl:egl"

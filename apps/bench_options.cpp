@@ -103,16 +103,18 @@ void addWithSettings(const projection::EngineOptions& variant, const BenchOption
     for (const int tableSize : options.tableSizes)
         for (const double tableError : options.tableErrors)
             for (const projection::OrderMethod order : options.orders)
-                for (const bool skipInvisible : options.skipInvisible)
-                    for (const bool earlyTermination : options.earlyTermination)
-                        for (const int threads : options.threads)
-                            choices.push_back({.options = variant,
-                                               .tableSize = tableSize,
-                                               .threads = threads,
-                                               .tableError = tableError,
-                                               .order = order,
-                                               .skipInvisible = skipInvisible,
-                                               .earlyTermination = earlyTermination});
+                for (const bool everyNode : options.everyNode)
+                    for (const bool skipInvisible : options.skipInvisible)
+                        for (const bool earlyTermination : options.earlyTermination)
+                            for (const int threads : options.threads)
+                                choices.push_back({.options = variant,
+                                                   .tableSize = tableSize,
+                                                   .threads = threads,
+                                                   .tableError = tableError,
+                                                   .order = order,
+                                                   .everyNode = everyNode,
+                                                   .skipInvisible = skipInvisible,
+                                                   .earlyTermination = earlyTermination});
 }
 
 /// True when `name` means at least one engine, which is then added.
@@ -184,6 +186,9 @@ void addBenchOptions(CLI::App& command, BenchOptions& options) {
                     "error that the table is made for (default auto: 1e-4)", "E,…");
     addList<projection::OrderMethod>(command, "--order", options.orders, parseOrder,
                                      fmt::format("{} (default auto)", orderNames()), "ORDER,…");
+    addList<bool>(command, "--integration", options.everyNode, parseIntegration,
+                  "auto, exact: merge nodes that a line meets within 1e-5, of functions of many (default auto)",
+                  "auto,exact");
     addList<bool>(command, "--skip-invisible", options.skipInvisible, parseSwitch,
                   "on, off: leave out cells that the transfer function hides (default on)", "on,off");
     addList<bool>(command, "--early-termination", options.earlyTermination, parseSwitch,

@@ -137,6 +137,12 @@ std::string modeNames() {
     return namesOf(modes);
 }
 
+bool parseIntegration(const std::string& option, const std::string& text) {
+    if (text != "auto" && text != "exact")
+        throw std::runtime_error(fmt::format("{}: '{}' is neither auto nor exact; give one of them", option, text));
+    return text == "exact";
+}
+
 OrderMethod parseOrder(const std::string& option, const std::string& text) {
     return parseNamed(orders, "order", option, text);
 }

@@ -35,6 +35,8 @@ projection::Mode parseMode(const std::string& option, const std::string& text);
 std::string modeName(projection::Mode mode);
 std::string modeNames();  ///< with commas, for help and messages
 
+/// RenderSettings::everyNode from "auto" or "exact".
+bool parseIntegration(const std::string& option, const std::string& text);
 projection::OrderMethod parseOrder(const std::string& option, const std::string& text);
 std::string orderName(projection::OrderMethod order);
 std::string orderNames();  ///< with commas

@@ -86,6 +86,9 @@ void addMachineOptions(CLI::App& command, RenderOptions& options) {
     command.add_flag_callback(
         "--no-skip-invisible", [&options] { options.settings.skipInvisible = false; },
         "for measuring: draw also cells that the transfer function hides");
+    addParsed(command, "--integration", options.settings.everyNode, parseIntegration,
+              "cpu: auto (of more than 64 nodes, runs that a line meets within 1e-5 are one) or exact (every node)",
+              "auto|exact");
     addNumber<double>(command, "--table-error", options.settings.table.wantedError, positive, "a number above 0",
                       "largest error of a pre-integration table, 1e-4");
     addNumber<int>(

@@ -43,6 +43,9 @@ double millisecondsSince(Clock::time_point start) {
 /// Rounding of nearness that the order check allows for, relative to the mesh's extent.
 constexpr double orderRounding = 1e-6;
 
+/// Nodes that a line meets within this are walked along as one piece (CpuTransfer).
+constexpr double nodeTolerance = 1e-5;
+
 /// Bytes that malloc hands on without asking the system (glibc's DEFAULT_MMAP_THRESHOLD_MAX).
 constexpr std::size_t mostRecycled = std::size_t{32} << 20;
 
@@ -89,7 +92,8 @@ public:
           mesh_(*scene.mesh),
           units_(sceneUnits(mesh_)),
           edgeOnPlanes_(mesh_),
-          transfer_(inSceneUnits(scene.transferFunction, units_, integralOf(scene.settings.mode))),
+          transfer_(inSceneUnits(scene.transferFunction, units_, integralOf(scene.settings.mode)),
+                    scene.settings.everyNode ? 0.0 : nodeTolerance),
           arena_(scene.settings.threads > 0 ? scene.settings.threads : tbb::task_arena::automatic) {
         arena_.execute([&] { prepare(); });
     }

@@ -12,6 +12,8 @@ namespace tetralux::projection {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+/// So many nodes are walked along as they are; a run is no longer than that.
+constexpr std::size_t fewNodes = 64, longestRun = 64;
 constexpr double largestPeakDepth = 1e4;
 /// Of a colour's channel, for TransferPiece::fine: then V's error of D³/16 at D = 1/10 changes a piece by 1e-6.
 constexpr double largestFineChange = 0.04;
@@ -28,6 +30,11 @@ Value lineAt(const std::vector<Node>& nodes, Value Node::*value, double inside, 
     return (1.0 - t) * ((*below).*value) + t * ((*above).*value);
 }
 
+bool isFine(const TransferPiece& piece, double width) {
+    return std::all_of(std::begin(piece.colorSlope), std::end(piece.colorSlope),
+                       [&](float slope) { return std::abs(slope) * width <= largestFineChange; });
+}
+
 bool sameLine(const TransferPiece& a, const TransferPiece& b) {
     if (!a.visible && !b.visible) return true;
     const bool constant = a.extinctionSlope == 0 && b.extinctionSlope == 0 && a.extinction == b.extinction;
@@ -37,9 +44,62 @@ bool sameLine(const TransferPiece& a, const TransferPiece& b) {
     return a.visible == b.visible && constant && sameColor;
 }
 
+/// The line of the nodes' mean slope that has their mean, as values at `middle`; false if a node is farther from it
+/// than the tolerance.
+struct RunLine {
+    double middle, value[4], slope[4];
+
+    RunLine(const std::vector<TransferNode>& nodes, std::size_t begin, std::size_t end) {
+        const double width = nodes[end].scalar - nodes[begin].scalar;
+        middle = 0.5 * (nodes[begin].scalar + nodes[end].scalar);
+        for (std::size_t c = 0; c < 4; ++c) {
+            double sum = 0;
+            for (std::size_t i = begin; i < end; ++i)
+                sum += 0.5 * (nodes[i].value[c] + nodes[i + 1].value[c]) * (nodes[i + 1].scalar - nodes[i].scalar);
+            value[c] = sum / width;
+            slope[c] = (nodes[end].value[c] - nodes[begin].value[c]) / width;
+        }
+    }
+
+    bool meets(const TransferNode& node, double tolerance) const {
+        for (std::size_t c = 0; c < 4; ++c) {
+            const double bound = c == 3 ? tolerance * node.value[c] : tolerance;
+            if (!(std::abs(value[c] + slope[c] * (node.scalar - middle) - node.value[c]) <= bound)) return false;
+        }
+        return true;
+    }
+};
+
+/// The last node of the longest run from `begin` that one line meets.
+std::size_t runEnd(const std::vector<TransferNode>& nodes, std::size_t begin, double tolerance) {
+    std::size_t end = begin + 1;
+    while (end + 1 < nodes.size() && end - begin < longestRun && !nodes[end].ends) {
+        const RunLine line(nodes, begin, end + 1);
+        for (std::size_t i = begin; i <= end + 1; ++i)
+            if (!line.meets(nodes[i], tolerance)) return end;
+        ++end;
+    }
+    return end;
+}
+
+std::vector<TransferNode> nodesAt(const preint::TransferFunction& function, const std::vector<double>& scalars) {
+    const auto isNode = [](const auto& list, double s) {
+        return std::count_if(list.begin(), list.end(), [&](const auto& node) { return node.scalar == s; });
+    };
+    std::vector<TransferNode> nodes;
+    for (const double s : scalars) {
+        const glm::dvec3 color = function.colorAt(s);
+        nodes.push_back({s, {color.x, color.y, color.z, function.extinctionAt(s)}, false});
+        nodes.back().ends = isNode(function.color, s) > 1 || isNode(function.extinction, s) > 1 ||
+                            std::any_of(function.isosurfaces.begin(), function.isosurfaces.end(),
+                                        [&](const auto& surface) { return surface.value == s; });
+    }
+    return nodes;
+}
+
 }  // namespace
 
-CpuTransfer::CpuTransfer(const preint::TransferFunction& function) : function_(function) {
+CpuTransfer::CpuTransfer(const preint::TransferFunction& function, double tolerance) : function_(function) {
     for (const auto& surface : function.isosurfaces) {
         if (!(surface.opacity > 0)) continue;
         const double depth = std::min(-std::log1p(-surface.opacity), largestPeakDepth);
@@ -61,10 +121,17 @@ CpuTransfer::CpuTransfer(const preint::TransferFunction& function) : function_(f
         if (value >= 0 && value <= 1 && (kept.empty() || static_cast<float>(value) > static_cast<float>(kept.back())))
             kept.push_back(value);
 
+    const std::vector<TransferNode> nodes = nodesAt(function, kept);
     double low = -infinity;
-    for (double value : kept) {
-        addPiece(function, low, value);
-        low = value;
+    for (std::size_t i = 0; i < kept.size();) {
+        std::size_t end = i;
+        if (i > 0 && tolerance > 0 && kept.size() > fewNodes) end = runEnd(nodes, i - 1, tolerance);
+        if (end > i)
+            addRun(nodes, i - 1, end);
+        else
+            addPiece(function, low, kept[end]);
+        low = kept[end];
+        i = end + 1;
     }
     addPiece(function, low, infinity);
 
@@ -131,6 +198,26 @@ void CpuTransfer::addPiece(const preint::TransferFunction& function, double low,
              piece.colorSlope[c]);
     piece.fine = true;
     for (float slope : piece.colorSlope) piece.fine = piece.fine && std::abs(slope) * width <= largestFineChange;
+    pieces_.push_back(piece);
+}
+
+void CpuTransfer::addRun(const std::vector<TransferNode>& nodes, std::size_t begin, std::size_t end) {
+    const RunLine line(nodes, begin, end);
+    TransferPiece piece{};
+    piece.low = static_cast<float>(nodes[begin].scalar);
+    piece.high = static_cast<float>(nodes[end].scalar);
+    piece.middle = static_cast<float>(line.middle);
+    const auto valueOf = [&](std::size_t c) {
+        return static_cast<float>(line.value[c] + line.slope[c] * (piece.middle - line.middle));
+    };
+    for (std::size_t c = 0; c < 3; ++c) {
+        piece.color[c] = valueOf(c);
+        piece.colorSlope[c] = static_cast<float>(line.slope[c]);
+    }
+    piece.extinction = valueOf(3);
+    piece.extinctionSlope = static_cast<float>(line.slope[3]);
+    piece.visible = piece.extinction > 0 || piece.extinctionSlope != 0;
+    piece.fine = isFine(piece, nodes[end].scalar - nodes[begin].scalar);
     pieces_.push_back(piece);
 }
 

@@ -29,10 +29,18 @@ struct TransferPeak {
     float color[3];
 };
 
+/// Colour and extinction where a function of scene units has a node.
+struct TransferNode {
+    double scalar, value[4];  ///< r, g, b, extinction
+    bool ends;                ///< a jump or an isosurface: no piece runs through it
+};
+
 class CpuTransfer {
 public:
-    /// `function` in scene units (inSceneUnits).
-    explicit CpuTransfer(const preint::TransferFunction& function);
+    /// `function` in scene units (inSceneUnits). Nodes that a line meets within `tolerance` (of a colour's channel, and
+    /// relative to the extinction) make one piece of the line that has the same mean there, so that errors have no
+    /// sign.
+    explicit CpuTransfer(const preint::TransferFunction& function, double tolerance = 0.0);
 
     const std::vector<TransferPiece>& pieces() const { return pieces_; }
     const std::vector<TransferPeak>& peaks() const { return peaks_; }
@@ -62,6 +70,7 @@ private:
     static constexpr std::size_t lookUpSteps = 1024;
 
     void addPiece(const preint::TransferFunction& function, double low, double high);
+    void addRun(const std::vector<TransferNode>& nodes, std::size_t begin, std::size_t end);
 
     preint::TransferFunction function_;
     std::vector<TransferPiece> pieces_;

@@ -30,7 +30,10 @@ struct RenderSettings {
     std::optional<AdaptiveSettings> adaptive;
     double largestExtinctionScale = 0.0;  ///< of the pixel maps that views will bring; 0: they bring none
     preint::TableOptions table;
-    int threads = 0;               ///< 0: all
+    int threads = 0;  ///< 0: all
+    /// The cpu engine walks along every node of the transfer function. Off: where there are many, it takes runs of
+    /// nodes that a line meets within 1e-5 as one.
+    bool everyNode = false;
     bool earlyTermination = true;  ///< off to measure what it saves: cells behind opaque pixels are drawn as well
     bool skipInvisible = true;     ///< off likewise: cells that the transfer function hides are drawn as well
 };

@@ -96,6 +96,36 @@ TEST(CpuTransfer, PiecesFromEitherSide) {
     }
 }
 
+// Runs keep the mean of what they stand for, and end where there is a jump.
+TEST(CpuTransfer, RunsOfNodesThatALineMeets) {
+    preint::TransferFunction f;
+    for (int i = 0; i <= 2000; ++i) {
+        const double s = i / 2000.0, jump = s > 0.5 ? 3.0 : 0.0;
+        if (i == 1000) f.extinction.push_back({s, 2.0 + s});
+        f.color.push_back({s, {std::sin(3 * s), s, 0.5}});
+        f.extinction.push_back({s, 2.0 + s + (i == 1000 ? 3.0 : jump)});
+    }
+    const CpuTransfer every(f), some(f, 1e-5);
+    EXPECT_LT(some.pieces().size(), every.pieces().size() / 4);
+    EXPECT_GT(some.pieces().size(), 20u);
+    double error = 0, sum = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const auto s = static_cast<float>((i + 0.5) / 20000.0);
+        const auto at = [&](const CpuTransfer& transfer, std::size_t channel) {
+            const TransferPiece& piece = transfer.pieces()[transfer.pieceFromAbove(s)];
+            const float ds = s - piece.middle;
+            return channel == 3 ? piece.extinction + piece.extinctionSlope * ds
+                                : piece.color[channel] + piece.colorSlope[channel] * ds;
+        };
+        for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(at(some, c), at(every, c), 1.05e-5) << s;
+        EXPECT_NEAR(at(some, 3) / at(every, 3), 1.0, 1.05e-5) << s;
+        error = std::max(error, static_cast<double>(std::abs(at(some, 0) - at(every, 0))));
+        sum += static_cast<double>(at(some, 0) - at(every, 0)) / 20000.0;
+    }
+    EXPECT_GT(error, 1e-6);  // something was merged
+    EXPECT_NEAR(sum, 0.0, 2e-7);
+}
+
 TEST(CpuTransfer, OneColourWhereAnythingIsSeen) {
     preint::TransferFunction f;
     f.color = {{0.0, {0, 0, 1}}, {0.4, {1, 0, 0}}, {1.0, {1, 0, 0}}};

@@ -155,8 +155,8 @@ PointMoments LevelSetPoints::near(const glm::dvec3& centre, double scalar) const
     return sums;
 }
 
-__attribute__((target_clones("avx512f", "avx2,fma", "default"))) void LevelSetPoints::addCube(
-    std::size_t cube, const glm::dvec3& centreFromCube, float scalar, PointMoments& sums) const {
+void LevelSetPoints::addCube(std::size_t cube, const glm::dvec3& centreFromCube, float scalar,
+                             PointMoments& sums) const {
     const auto begin = scalars_.begin() + static_cast<std::ptrdiff_t>(starts_[cube]),
                end = scalars_.begin() + static_cast<std::ptrdiff_t>(starts_[cube + 1]);
     const auto from = std::lower_bound(begin, end, scalar - 1.0f), to = std::upper_bound(from, end, scalar + 1.0f);

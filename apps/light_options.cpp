@@ -112,7 +112,7 @@ void addLightOptions(CLI::App& command, shading::ShadingSettings& settings) {
         .add_option_function<std::string>(
             "--anisotropy", [&settings](const std::string& text) { setAnisotropy(text, settings.anisotropy); },
             "for ward and lafortune: radius=4 (edge lengths), interval=0.05 (of the range), samples=4 (per cell), "
-            "smoothing=0, kappa (half the exponent), gamma=10")
+            "smoothing=0, kappa (an eighth of the exponent), gamma=10")
         ->type_name("KEY=VALUE,...");
     command.add_flag("--specular-by-gradient", settings.material.specularByGradient,
                      "highlights as strong as the gradient of extinction: only where it rises do things shine");

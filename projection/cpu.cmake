@@ -18,3 +18,8 @@ target_link_libraries(tetralux_projection PRIVATE PkgConfig::Highway)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set_source_files_properties(cpu_cull_kernel.cpp cpu_limited_kernel.cpp cpu_tile_kernel.cpp PROPERTIES COMPILE_OPTIONS "-msse4.2;-maes;-mpclmul")
 endif()
+# Sanitizers read one copy of the kernels as well as six: an instrumented one takes minutes to compile.
+if(TETRALUX_SANITIZE)
+  set_property(SOURCE cpu_cull_kernel.cpp cpu_limited_kernel.cpp cpu_tile_kernel.cpp APPEND PROPERTY
+               COMPILE_OPTIONS "-DHWY_COMPILE_ONLY_STATIC;-O1")
+endif()

@@ -26,7 +26,8 @@ public:
         dense_ = mode == Mode::Standard || mode == Mode::ScaleInvariant || mode == Mode::FirstHit ||
                  mode == Mode::Absorption;
         if (dense_ && engine_->name() != "reference")
-            beyondFloat_ = cellsBeyondFloat(*scene.mesh, scene.transferFunction, integralOf(scene.settings.mode));
+            beyondFloat_ = cellsBeyondFloat(*scene.mesh, scene.transferFunction, integralOf(scene.settings.mode),
+                                            mode == Mode::FirstHit);
     }
 
     Image render(const View& view, FrameReport& report) override {

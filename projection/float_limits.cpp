@@ -46,8 +46,10 @@ CellShape shapeOf(const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {
     return {longest, largestFace > 0 ? longest * volume / largestFace : 0.0};
 }
 
-/// Whether an isosurface may be met twice or not at all: both sides of a face must agree about its scalar.
-bool mayMissIsosurface(const mesh::ScalarMesh& mesh, mesh::CellIndex cell, const preint::TransferFunction& function) {
+/// Whether scalars on the cell's faces err by more than shows, where they do: everywhere, or where an isosurface may be
+/// met twice or not at all, since both sides of a face must agree about its scalar.
+bool mayMissScalar(const mesh::ScalarMesh& mesh, mesh::CellIndex cell, const preint::TransferFunction& function,
+                   bool everywhere) {
     double low = mesh.scalarAt(cell, 0), high = low;
     for (int k = 1; k < 4; ++k) {
         low = std::min(low, mesh.scalarAt(cell, k));
@@ -56,7 +58,7 @@ bool mayMissIsosurface(const mesh::ScalarMesh& mesh, mesh::CellIndex cell, const
     const bool crossed = std::any_of(
         function.isosurfaces.begin(), function.isosurfaces.end(),
         [&](const auto& surface) { return surface.opacity > 0 && surface.value >= low && surface.value <= high; });
-    if (!crossed) return false;
+    if (!crossed && !everywhere) return false;
     const CellShape shape = shapeOf(mesh, cell);
     return planeError * shape.longestEdge > largestScalarError * shape.leastAltitude;
 }
@@ -82,14 +84,14 @@ double depthError(const mesh::ScalarMesh& mesh, mesh::CellIndex cell, const prei
 }  // namespace
 
 std::vector<mesh::CellIndex> cellsBeyondFloat(const mesh::ScalarMesh& mesh, const preint::TransferFunction& function,
-                                              preint::Integral integral) {
+                                              preint::Integral integral, bool scalarsShow) {
     double strongest = 0;
     for (const auto& node : function.extinction) strongest = std::max(strongest, node.extinction);
     // no cell is longer than the mesh or ranges wider: most scenes end here
     const double most = integral == preint::Integral::Standard
                             ? strongest * mesh.bounds.diagonal() * planeError * obliqueness
                             : strongest * (mesh.scalarMax - mesh.scalarMin);
-    if (!(most > largestDepthError) && function.isosurfaces.empty()) return {};
+    if (!(most > largestDepthError) && function.isosurfaces.empty() && !scalarsShow) return {};
 
     tbb::enumerable_thread_specific<std::vector<mesh::CellIndex>> found;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.cells.size(), 4096), [&](const auto& range) {
@@ -98,7 +100,7 @@ std::vector<mesh::CellIndex> cellsBeyondFloat(const mesh::ScalarMesh& mesh, cons
             const auto cell = static_cast<mesh::CellIndex>(i);
             if ((most > largestDepthError &&
                  depthError(mesh, cell, function, integral, strongest) > largestDepthError) ||
-                mayMissIsosurface(mesh, cell, function))
+                mayMissScalar(mesh, cell, function, scalarsShow))
                 mine.push_back(cell);
         }
     });

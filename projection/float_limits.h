@@ -14,9 +14,10 @@ namespace tetralux::projection {
 /// shows in flat cells only, since others of that extinction are opaque; and the scalar of a cell with least altitude h
 /// errs by up to 1e-7·e/h of its range. An
 /// isosurface within the range of a cell with e/h > 3000 may be met twice or never, since that cell and its neighbour
-/// differ about the scalar on their face. Empty for every scene but those of extreme extinction or flatness: engines
+/// differ about the scalar on their face; with `scalarsShow`, as in pictures of the colour at the first hit, such cells
+/// count anywhere. Empty for every scene but those of extreme extinction or flatness: engines
 /// have the pixels of these cells composed exactly.
 std::vector<mesh::CellIndex> cellsBeyondFloat(const mesh::ScalarMesh& mesh, const preint::TransferFunction& function,
-                                              preint::Integral integral);
+                                              preint::Integral integral, bool scalarsShow = false);
 
 }  // namespace tetralux::projection

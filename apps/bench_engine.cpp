@@ -60,6 +60,8 @@ void describeFirstFrame(const FrameReport& report, BenchRow& row) {
     row.cellsSorted = report.cellsSorted;
     row.fragments = report.fragments;
     row.orderMethod = report.orderMethod;
+    row.dataPath = report.dataPath;
+    row.bytesUploaded = report.bytesUploaded;
     row.tileEntries = report.tileEntries;
     row.tileEntriesSaved = report.tileEntriesSaved;
 }
@@ -166,6 +168,7 @@ std::string EngineChoice::setting() const {
     if (tableError > 0.0) parts.push_back(fmt::format("error {:g}", tableError));
     if (order != projection::OrderMethod::Auto) parts.push_back(orderName(order));
     if (everyNode) parts.emplace_back("every node");
+    if (options.glPath != "auto") parts.push_back(options.glPath);
     if (!skipInvisible) parts.emplace_back("all cells");
     if (!earlyTermination) parts.emplace_back("to the end");
     if (threads > 0) parts.push_back(fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"));

@@ -15,6 +15,7 @@
 #include <apps/option_values.h>
 #include <projection/engine.h>
 #include <projection/gl_context.h>
+#include <projection/gl_path.h>
 
 namespace tetralux::apps {
 
@@ -34,6 +35,13 @@ CLI::Option* addList(CLI::App& command, const std::string& name, std::vector<Ite
 
 std::string sameText(const std::string&, const std::string& text) {
     return text;
+}
+
+std::string parseGlPathName(const std::string& option, const std::string& text) {
+    const std::vector<std::string> names = projection::glPathNames();
+    if (std::find(names.begin(), names.end(), text) != names.end()) return text;
+    throw std::runtime_error(
+        fmt::format("{}: there is no path '{}'; take some of {}", option, text, fmt::join(names, ", ")));
 }
 
 int parseCount(const std::string& option, const std::string& text) {
@@ -98,8 +106,8 @@ std::vector<std::string> knownNames() {
     return names;
 }
 
-void addWithSettings(const projection::EngineOptions& variant, const BenchOptions& options,
-                     std::vector<EngineChoice>& choices) {
+void addOnPath(const projection::EngineOptions& variant, const BenchOptions& options,
+               std::vector<EngineChoice>& choices) {
     for (const int tableSize : options.tableSizes)
         for (const double tableError : options.tableErrors)
             for (const projection::OrderMethod order : options.orders)
@@ -115,6 +123,15 @@ void addWithSettings(const projection::EngineOptions& variant, const BenchOption
                                                    .everyNode = everyNode,
                                                    .skipInvisible = skipInvisible,
                                                    .earlyTermination = earlyTermination});
+}
+
+void addWithSettings(projection::EngineOptions variant, const BenchOptions& options,
+                     std::vector<EngineChoice>& choices) {
+    if (!variant.engine.starts_with("gl")) return addOnPath(variant, options, choices);
+    for (const std::string& path : options.glPaths) {
+        variant.glPath = path;
+        addOnPath(variant, options, choices);
+    }
 }
 
 /// True when `name` means at least one engine, which is then added.
@@ -193,6 +210,10 @@ void addBenchOptions(CLI::App& command, BenchOptions& options) {
                   "on, off: leave out cells that the transfer function hides (default on)", "on,off");
     addList<bool>(command, "--early-termination", options.earlyTermination, parseSwitch,
                   "on, off: leave out what lies behind opaque pixels (default on)", "on,off");
+    addList<std::string>(
+        command, "--gl-path", options.glPaths, parseGlPathName,
+        fmt::format("who sets cells up for OpenGL: {} (default auto)", fmt::join(projection::glPathNames(), ", ")),
+        "PATH,…");
     addList<int>(command, "--threads", options.threads, parseCount, "threads of our engines (default all)", "N,…");
     command.add_option("--frames", options.plan.frames, "timed frames, camera moved before each")
         ->check(CLI::Range(1, 10000))

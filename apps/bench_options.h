@@ -26,6 +26,7 @@ struct BenchOptions {
     std::vector<projection::Mode> modes{projection::Mode::Standard};
     std::vector<std::string> engines;  ///< names as in rows; empty: all there are
     std::vector<int> tableSizes{0};
+    std::vector<std::string> glPaths{"auto"};
     std::vector<int> threads{0};
     std::vector<double> tableErrors{0.0};
     std::vector<projection::OrderMethod> orders{projection::OrderMethod::Auto};

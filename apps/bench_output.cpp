@@ -153,6 +153,8 @@ const std::vector<Column>& columns() {
         {"tile_entries_saved", [](const BenchRow& r) { return fmt::to_string(r.tileEntriesSaved); }},
         {"cells_sorted", [](const BenchRow& r) { return fmt::to_string(r.cellsSorted); }},
         {"order", [](const BenchRow& r) { return r.orderMethod; }},
+        {"gl_path", [](const BenchRow& r) { return r.dataPath; }},
+        {"bytes_uploaded", [](const BenchRow& r) { return fmt::to_string(r.bytesUploaded); }},
         {"pixels_repaired", [](const BenchRow& r) { return fmt::to_string(r.pixelsRepaired); }},
         {"table_size", [](const BenchRow& r) { return fmt::to_string(r.tableSize); }},
         {"table_slices", [](const BenchRow& r) { return fmt::to_string(r.tableSlices); }},
@@ -198,6 +200,7 @@ json rowJson(const BenchRow& row) {
     result["cells"] = {{"drawn", row.cellsDrawn}, {"skipped", row.cellsSkipped}, {"sorted", row.cellsSorted}};
     result["tiles"] = {{"entries", row.tileEntries}, {"entries_saved", row.tileEntriesSaved}};
     result["order"] = row.orderMethod;
+    if (!row.dataPath.empty()) result["gl"] = {{"path", row.dataPath}, {"bytes_uploaded", row.bytesUploaded}};
     result["pixels_repaired"] = row.pixelsRepaired;
     if (row.tableSize > 0)
         result["table"] = {{"size", row.tableSize},

@@ -46,6 +46,8 @@ struct BenchRow {
     std::map<std::string, std::uint64_t> cellsSkipped;             ///< by reason, first frame
     std::uint64_t tileEntries = 0, tileEntriesSaved = 0;           ///< as FrameReport has them
     std::string orderMethod;
+    std::string dataPath;              ///< gl: "stream" or "resident"
+    std::uint64_t bytesUploaded = 0;   ///< gl: for cells and order, first frame
     std::uint64_t pixelsRepaired = 0;  ///< over all frames
 
     int tableSize = 0, tableSlices = 0;  ///< texels per scalar axis and zone, length slices; 0: no table

@@ -15,6 +15,7 @@
 #include <apps/option_values.h>
 #include <apps/read_options.h>
 #include <preint/transfer_function.h>
+#include <projection/gl_path.h>
 
 namespace tetralux::apps {
 
@@ -74,6 +75,9 @@ void addMachineOptions(CLI::App& command, RenderOptions& options) {
     command.add_option("--engine", options.engine.engine,
                        fmt::format("what draws: auto, {}", fmt::join(projection::engineNames(), ", ")));
     command.add_option("--context", options.engine.context, "OpenGL context: auto, egl, osmesa");
+    command.add_option("--gl-path", options.engine.glPath,
+                       fmt::format("who sets cells up for OpenGL, the processor or the GPU: {}",
+                                   fmt::join(projection::glPathNames(), ", ")));
     addParsed(command, "--order", options.settings.order, parseOrder,
               "how cells are put in order, for measuring: auto (certain), graph (certain, no keys), centroid (wrong in "
               "places, which are counted)",

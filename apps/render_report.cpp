@@ -142,6 +142,9 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
         {"pixels", {{"repaired", repaired}, {"wrong", wrong}}},
         {"peak_memory_bytes", peakMemoryBytes()},
     };
+    if (!first.dataPath.empty())
+        report["gl"] = {
+            {"path", first.dataPath}, {"why", first.dataPathReason}, {"bytes_uploaded", first.bytesUploaded}};
     if (record.verification) report["verification"] = verificationJson(*record.verification);
     if (options.maxError) {
         report["verification"]["max_error"] = *options.maxError;

@@ -18,18 +18,22 @@ constexpr double farthestPixel = 1e9;
 
 }  // namespace
 
+CameraAxes cameraAxes(const CameraFrame& frame, const SceneUnits& units) {
+    const double perLength = 1.0 / units.length, pixel = glm::length(frame.perPixelRight);
+    const double across = frame.orthographic ? 1.0 / pixel : perLength / pixel;
+    return {frame.right * across, -frame.up * across, frame.forward * perLength};
+}
+
 void projectPoints(const mesh::ScalarMesh& mesh, const SceneUnits& units, const CameraFrame& frame,
                    std::vector<CameraPoint>& points) {
     points.resize(mesh.positions.size());
-    const double perLength = 1.0 / units.length, pixel = glm::length(frame.perPixelRight);
-    const glm::dvec3 right = frame.right * (frame.orthographic ? 1.0 / pixel : perLength / pixel),
-                     down = -frame.up * (frame.orthographic ? 1.0 / pixel : perLength / pixel),
-                     forward = frame.forward * perLength;
+    const CameraAxes axes = cameraAxes(frame, units);
     const glm::dvec2 centre = sampleCentre(frame);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 4096), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             const glm::dvec3 fromEye = mesh.positions[i] - frame.eye;
-            CameraPoint p{glm::dot(fromEye, right), glm::dot(fromEye, down), glm::dot(fromEye, forward), 0, 0};
+            CameraPoint p{glm::dot(fromEye, axes.right), glm::dot(fromEye, axes.down), glm::dot(fromEye, axes.forward),
+                          0, 0};
             const double ratio = frame.orthographic ? 1.0 : 1.0 / p.z;
             if (frame.orthographic || p.z > 0) {
                 p.pixelX = static_cast<float>(std::clamp(centre.x + p.x * ratio, -farthestPixel, farthestPixel));

@@ -31,6 +31,12 @@ inline glm::dvec2 sampleCentre(const CameraFrame& frame) {
     return frame.centre - frame.sampleShift;
 }
 
+/// What a point's place from the eye (mesh units) is multiplied by to become a CameraPoint's x, y and z.
+struct CameraAxes {
+    glm::dvec3 right, down, forward;
+};
+CameraAxes cameraAxes(const CameraFrame& frame, const SceneUnits& units);
+
 /// All points of `mesh`. `points` keeps its memory.
 void projectPoints(const mesh::ScalarMesh& mesh, const SceneUnits& units, const CameraFrame& frame,
                    std::vector<CameraPoint>& points);

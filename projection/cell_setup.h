@@ -45,6 +45,8 @@ struct CellGradient {
     float magnitude;
 };
 
+CellGradient unitGradient(const mesh::ScalarMesh& mesh, const SceneUnits& units, mesh::CellIndex cell);
+
 /// Pixel rectangle [x0, x1) × [y0, y1) that holds a cell's projection, within the image.
 struct PixelRect {
     int x0, y0, x1, y1;
@@ -81,8 +83,8 @@ public:
     /// The record of a cell that `bounds` does not skip.
     CellRecord record(mesh::CellIndex cell) const;
 
-    /// The cell's projected corners in pixel coordinates when all four lie in front of the eye; nothing otherwise.
-    std::optional<std::array<glm::dvec2, 4>> corners(mesh::CellIndex cell) const;
+    /// The cell's corners before the camera (CameraPoint).
+    std::array<glm::dvec3, 4> cameraCorners(mesh::CellIndex cell) const;
 
     /// On which side of a face's plane the eye is: positive on the inner one, 0 within the plane (orthographic: the
     /// face's extent along the view). Both cells of a face get the same number with opposite signs.
@@ -99,17 +101,9 @@ public:
     /// length): what PowerOrder's keys weight the heights by.
     std::array<double, 4> eyeCoordinates(mesh::CellIndex cell) const;
 
-    CellGradient gradient(mesh::CellIndex cell) const;
+    CellGradient gradient(mesh::CellIndex cell) const { return unitGradient(mesh_, units_, cell); }
 
 private:
-    template <bool Orthographic>
-    CellRecord recordIn(mesh::CellIndex cell) const;
-    template <bool Orthographic>
-    std::array<double, 4> eyeSidesIn(mesh::CellIndex cell) const;
-    template <bool Orthographic>
-    std::array<double, 4> eyeCoordinatesIn(mesh::CellIndex cell) const;
-    std::array<glm::dvec3, 4> cornersOf(mesh::CellIndex cell) const;
-
     const mesh::ScalarMesh& mesh_;
     SceneUnits units_;
     CameraFrame frame_;

@@ -8,6 +8,7 @@
 /// set up at all.
 #include <projection/cpu_simd.h>
 
+#include <projection/cell_constants.h>
 #include <projection/cpu_special_cell.h>
 #include <projection/cpu_tile.h>
 
@@ -22,8 +23,16 @@ HWY_BEFORE_NAMESPACE();
 namespace tetralux::projection::HWY_NAMESPACE {
 
 #undef TETRALUX_CELL_FUNCTION
+#undef TETRALUX_CELL_IN
+#undef TETRALUX_CELL_INOUT
 #define TETRALUX_CELL_FUNCTION HWY_INLINE
-#include <projection/projected_cell.inl>
+#define TETRALUX_CELL_IN(type) const type&
+#define TETRALUX_CELL_INOUT(type) type&
+// clang-format off: each stands on those before it
+#include <projection/cell_triple.inl>
+#include <projection/projected_cell.glsl>
+#include <projection/cell_depth_bounds.inl>
+// clang-format on
 
 /// Point numbers of the batch's cells in ascending order, and whether that order turns the cell inside out.
 struct SortedCorners {
@@ -98,7 +107,7 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
                            CellBatch& batch) {
     const DoubleTag tag;
     const auto* coordinates = reinterpret_cast<const double*>(frame.points);
-    Triple<wide> p[4];
+    Triple p[4];
     hn::Vec<DoubleTag> pixels[4];
     wide s[4];
     for (std::size_t k = 0; k < 4; ++k) {
@@ -123,9 +132,9 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
     hn::StoreU(high, half, &batch.scalarHigh[j]);
     const bool special = batchRectangles(frame, pixels, tileX, tileY, j, batch);
 
-    const auto forms = cellForms<wide, Orthographic>(p[0], p[1], p[2], p[3]);
-    const auto reference = centroidReference<wide, Orthographic>(forms);
-    const auto cell = projectCell<wide, Orthographic>(forms, reference, s);
+    const auto forms = cellForms(p[0], p[1], p[2], p[3], Orthographic);
+    const auto reference = centroidReference(forms, Orthographic);
+    const auto cell = projectCell(forms, reference, s, Orthographic);
 
     const wide zero(0.0);
     const auto odd =
@@ -151,7 +160,7 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
     const wide nearest = min(min(p[0].z, p[1].z), min(p[2].z, p[3].z)),
                deepest = max(max(p[0].z, p[1].z), max(p[2].z, p[3].z));
     const auto depths =
-        depthBounds<wide, Orthographic>(frame.depthReference, reference.depth, reference.perDepth, nearest, deepest);
+        depthBounds(frame.depthReference, reference.depth, reference.perDepth, nearest, deepest, Orthographic);
     storeFloats(depths.rhoNear, &batch.rhoNear[j]);
     storeFloats(depths.rhoFar, &batch.rhoFar[j]);
     storeFloats(depths.nearnessPerRho, &batch.nearnessPerRho[j]);

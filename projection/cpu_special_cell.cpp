@@ -34,21 +34,21 @@ void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int
     batch.end[j][1] = covers ? inTile(rect.y1, tileY) : 0;
     if (!covers) return;
 
-    Triple<double> p[4];
+    Triple p[4];
     double s[4], deepest = 0;
     for (std::size_t k = 0; k < 4; ++k) {
-        p[k] = {corners[k].x, corners[k].y, corners[k].z};
+        p[k] = Triple(corners[k].x, corners[k].y, corners[k].z);
         s[k] = frame.cellData ? frame.scalars[cellIndex] : frame.scalars[static_cast<std::uint32_t>(points[k])];
         deepest = std::max(deepest, p[k].z);
     }
-    const auto forms = cellForms<double, false>(p[0], p[1], p[2], p[3]);
-    CellReference<double> reference;
+    const auto forms = cellForms(p[0], p[1], p[2], p[3], false);
+    CellReference reference;
     reference.depth = 0.5 * deepest;
     reference.perDepth = 1.0 / reference.depth;
     reference.imageX = 0.5 * (rect.x0 + rect.x1) - frame.centre.x;
     reference.imageY = 0.5 * (rect.y0 + rect.y1) - frame.centre.y;
-    coordinatesAt<double, false>(forms, reference);
-    const auto cell = projectCell<double, false>(forms, reference, s);
+    coordinatesAt(forms, reference);
+    const auto cell = projectCell(forms, reference, s, false);
     std::uint32_t fronts = 0;
     for (std::size_t k = 0; k < 4; ++k) {
         fronts |= (forms.eye[k] < 0) != odd ? 1u << k : 0u;  // as the plane's sign was taken, also where it is 0
@@ -62,8 +62,7 @@ void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int
     batch.scale[j] = static_cast<float>(reference.depth);
     batch.offsetX[j] = static_cast<float>(tileX - frame.centre.x - reference.imageX);
     batch.offsetY[j] = static_cast<float>(tileY - frame.centre.y - reference.imageY);
-    const auto depths =
-        depthBounds<double, false>(frame.depthReference, reference.depth, reference.perDepth, deepest, deepest);
+    const auto depths = depthBounds(frame.depthReference, reference.depth, reference.perDepth, deepest, deepest, false);
     batch.rhoNear[j] = static_cast<float>(largestRho);
     batch.rhoFar[j] = static_cast<float>(depths.rhoFar - 1e-6);
     batch.nearness[j] = static_cast<float>(depths.nearness);

@@ -18,16 +18,21 @@ target_compile_options(tetralux_glad PRIVATE -w)  # not our code
 
 target_sources(tetralux_projection PRIVATE
   egl_context.cpp
+  gl_cell_buffer.cpp
   gl_cell_order.cpp
   gl_cell_outline.cpp
   gl_cell_program.cpp
   gl_cell_stream.cpp
+  gl_compute.cpp
   gl_context.cpp
   gl_engine.cpp
   gl_frame_target.cpp
   gl_functions.cpp
   gl_limits.cpp
+  gl_path.cpp
   gl_program.cpp
+  gl_radix_sort.cpp
+  gl_resident_cells.cpp
   gl_resolve.cpp
   gl_sampler_probe.cpp
   osmesa_context.cpp
@@ -40,6 +45,24 @@ tetralux_embed_shaders(tetralux_projection FILES
   preint/glsl_prelude.glsl
   preint/table_lookup.glsl
   projection/cell_interval.glsl
+  projection/cell_outline.glsl
+  projection/covered_pixels.glsl
+  projection/gl_cell_corners.glsl
+  projection/gl_cell_doubles.glsl
+  projection/gl_cell_setup.comp
+  projection/gl_compact.comp
+  projection/gl_compute.glsl
+  projection/gl_cull.comp
+  projection/gl_order_check.comp
+  projection/gl_order_places.comp
+  projection/gl_plan.comp
+  projection/gl_points.comp
+  projection/gl_radix_count.comp
+  projection/gl_radix_scatter.comp
+  projection/gl_scan.comp
+  projection/gl_settle_ties.comp
+  projection/order_position.glsl
+  projection/projected_cell.glsl
   projection/gl_cell.frag
   projection/gl_cell.vert
   projection/gl_cell_record.glsl

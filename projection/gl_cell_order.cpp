@@ -49,6 +49,15 @@ void GlCellOrder::describe(FrameReport& report) const {
     report.orderUpkeep = "sorted";
 }
 
+void GlCellOrder::tellSkipped(std::uint64_t outsideView, std::uint64_t noPixelCentre, FrameReport& report) const {
+    report.cellsSkipped.clear();
+    const std::pair<SkipReason, std::uint64_t> counts[] = {{SkipReason::OutsideView, outsideView},
+                                                           {SkipReason::NoPixelCentre, noPixelCentre},
+                                                           {SkipReason::Invisible, cellCount_ - visible_.size()}};
+    for (const auto& [reason, cells] : counts)
+        if (cells > 0) report.cellsSkipped[skipReasonName(reason)] = cells;
+}
+
 /// Fills drawn_ with the candidates that cover pixels, in their order, and counts the others.
 void GlCellOrder::select(const CellProjector& projector, std::span<const mesh::CellIndex> candidates,
                          FrameReport& report) {
@@ -77,12 +86,8 @@ void GlCellOrder::select(const CellProjector& projector, std::span<const mesh::C
         for (std::size_t r = 0; r < skipped.size(); ++r) skipped[r] += chunks[c].skipped[r];
     }
     drawn_.resize(count);
-    skipped[static_cast<std::size_t>(SkipReason::OutsideView)] += visible_.size() - candidates.size();
-    skipped[static_cast<std::size_t>(SkipReason::Invisible)] = cellCount_ - visible_.size();
-    for (const SkipReason reason : {SkipReason::OutsideView, SkipReason::NoPixelCentre, SkipReason::Invisible}) {
-        const std::uint64_t cells = skipped[static_cast<std::size_t>(reason)];
-        if (cells > 0) report.cellsSkipped[skipReasonName(reason)] = cells;
-    }
+    tellSkipped(skipped[static_cast<std::size_t>(SkipReason::OutsideView)] + visible_.size() - candidates.size(),
+                skipped[static_cast<std::size_t>(SkipReason::NoPixelCentre)], report);
     report.cellsDrawn = count;
 }
 
@@ -90,8 +95,7 @@ void GlCellOrder::select(const CellProjector& projector, std::span<const mesh::C
 /// keys are certain in exact numbers, these are doubles.
 bool GlCellOrder::sortDrawn(const CellProjector& projector) {
     keySorter_.sort(*keys(), keys()->eye(projector.frame()), drawn_);
-    if (sorter_->method() == "power" && !keepsFaceRelations(sorter_->adjacency(), projector, drawn_, places_))
-        return false;
+    if (relations() != nullptr && !keepsFaceRelations(*relations(), projector, drawn_, places_)) return false;
     std::reverse(drawn_.begin(), drawn_.end());
     return true;
 }

@@ -25,6 +25,11 @@ public:
     /// Keys that put any of the cells in order; nullptr where there are none or none are needed.
     const OrderKeys* keys() const { return sorter_ && !sorter_->keys().empty() ? &sorter_->keys() : nullptr; }
 
+    /// Whose relations an order by keys must keep; nullptr where it is not held to any.
+    const mesh::Adjacency* relations() const {
+        return sorter_ && sorter_->method() == "power" ? &sorter_->adjacency() : nullptr;
+    }
+
     /// Whether the order is one of all cells at once, to be asked of backToFront: neither keys nor indifference.
     bool ofWholeMesh() const { return sorter_ && sorter_->keys().empty(); }
 
@@ -37,6 +42,9 @@ public:
 
     /// Of drawnCells' last call, what was spent on the order.
     double sortMilliseconds() const { return sortMilliseconds_; }
+
+    /// Adds to a report which cells are not drawn: of the visible ones so many for either reason, and the invisible.
+    void tellSkipped(std::uint64_t outsideView, std::uint64_t noPixelCentre, FrameReport& report) const;
 
     /// What a report says of the order, whoever made it.
     void describe(FrameReport& report) const;

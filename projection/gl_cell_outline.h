@@ -20,7 +20,8 @@ using CellOutline = std::array<glm::vec2, 4>;
 /// and the fragment shader, which knows the planes exactly, rejects the few that are not.
 CellOutline cellOutline(const std::array<glm::dvec2, 4>& corners, double margin);
 
-/// The pixels of a rectangle, for cells that have no such hull because they reach behind the eye.
-CellOutline rectangleOutline(const PixelRect& rect);
+/// What a cell is drawn as: that hull, or the rectangle of its pixels where it reaches behind the eye or farther beyond
+/// the image than rasterizers compute. `corners` before the camera (CameraPoint).
+CellOutline cellOutline(const std::array<glm::dvec3, 4>& corners, const CameraFrame& frame, double margin);
 
 }  // namespace tetralux::projection

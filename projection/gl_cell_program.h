@@ -71,6 +71,9 @@ public:
     /// Makes it current for drawing from that camera.
     void use(const CameraFrame& frame, double depthReference) const;
 
+    /// Makes it current again, with all that use() and setLights() have set.
+    void resume() const { program_.use(); }
+
     /// The lights of that camera, for programs of light in full; after use().
     void setLights(const std::vector<FrameLight>& lights, const SceneUnits& units) const;
 

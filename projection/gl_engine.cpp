@@ -20,6 +20,8 @@
 #include <projection/gl_context.h>
 #include <projection/gl_frame_target.h>
 #include <projection/gl_limits.h>
+#include <projection/gl_path.h>
+#include <projection/gl_resident_cells.h>
 #include <projection/gl_resolve.h>
 #include <projection/gl_sampler_probe.h>
 #include <projection/ray_nearness.h>
@@ -52,6 +54,7 @@ struct GlState {
     std::optional<GlVertexLight> vertexLight;
     std::array<std::unique_ptr<GlCellProgram>, 4> programs;  // by GlFrameKind: made when first needed
     std::optional<GlLimits> limits;                          // made when first needed
+    std::optional<GlResidentCells> resident;                 // where the frame's cells come from, else from `stream`
 };
 
 /// Pixels by which outlines grow: rasterizers move vertices by up to half a step of their grid, and corners are float.
@@ -59,18 +62,6 @@ double outlineMargin(const GlFunctions& gl, const CameraFrame& frame) {
     GLint bits = 8;
     gl.GetIntegerv(GL_SUBPIXEL_BITS, &bits);
     return 2.0 * std::exp2(-std::clamp(bits, 4, 8)) + 4e-7 * std::max(frame.width, frame.height);
-}
-
-/// Outlines that reach farther than this beyond the image (pixels) are drawn as rectangles instead: rasterizers compute
-/// in fixed point.
-constexpr float farthestCorner = 4096.0f;
-
-bool liesNear(const CellOutline& outline, const CameraFrame& frame) {
-    return std::all_of(outline.begin(), outline.end(), [&](const glm::vec2& corner) {
-        return corner.x > -farthestCorner && corner.y > -farthestCorner &&
-               corner.x < static_cast<float>(frame.width) + farthestCorner &&
-               corner.y < static_cast<float>(frame.height) + farthestCorner;
-    });
 }
 
 /// The longest edge of any cell, scene units: no segment is longer.
@@ -133,6 +124,8 @@ public:
         const CurrentGlContext current(*context_);
         makeState();
         prepare_["context"] = watch.lap();
+        choosePath(parseGlPath(options.glPath));
+        prepare_["resident"] = watch.lap();
     }
 
     ~GlEngine() override {
@@ -160,8 +153,12 @@ private:
         return !blends || scene_.settings.order != OrderMethod::Auto || !onlyColor(scene_.transferFunction);
     }
     void makeState();
+    void choosePath(GlPath wanted);
     const GlCellProgram& program(GlFrameKind kind);
     void setBlending() const;
+    const GlCellProgram& beginFrame(const View& view, const CameraFrame& frame);
+    void drawStreamed(const CameraFrame& frame, const GlCellProgram& program, FrameReport& report);
+    bool drawResident(const CameraFrame& frame, const GlCellProgram& program, FrameReport& report);
     void checkScales(const PixelMaps& maps) const;
     CellCorners cellCorners(const CellProjector& projector, const CellRecord& record, const CameraFrame& frame,
                             mesh::CellIndex cell) const;
@@ -180,6 +177,7 @@ private:
     GlCellLayout layout_;
     std::unique_ptr<GlContext> context_;
     std::optional<GlState> state_;
+    std::string pathReason_;
     std::map<std::string, double> prepare_;
 };
 
@@ -194,6 +192,23 @@ void GlEngine::makeState() {
         state_->table.emplace(gl, *table_);
         state_->linearSampler = linearSamplerIsExact(gl);
         if (layout_.attributes) state_->vertexLight.emplace(gl, *vertexLight_);
+    }
+}
+
+/// gl_path.h: the rule.
+void GlEngine::choosePath(GlPath wanted) {
+    if (wanted == GlPath::Stream || (wanted == GlPath::Auto && isSoftwareRenderer(state_->renderer))) {
+        pathReason_ = wanted == GlPath::Stream ? "asked for" : "software renderer";
+        return;
+    }
+    try {
+        state_->resident.emplace(*state_->gl, *scene_.mesh, units_, order_->visible(), order_->keys(),
+                                 order_->relations(), layout_);
+        pathReason_ = wanted == GlPath::Resident ? "asked for" : "GPU";
+    } catch (const std::runtime_error& error) {
+        if (wanted == GlPath::Resident) throw;
+        state_->resident.reset();
+        pathReason_ = error.what();
     }
 }
 
@@ -245,14 +260,7 @@ void GlEngine::writeCells(const CellProjector& projector, const CameraFrame& fra
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 256), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             const mesh::CellIndex cell = cells[i];
-            CellOutline outline;
-            const auto corners = projector.corners(cell);
-            if (corners) outline = cellOutline(*corners, margin);
-            if (!corners || !liesNear(outline, frame)) {
-                PixelRect rect{};
-                projector.bounds(cell, rect);
-                outline = rectangleOutline(rect);
-            }
+            const CellOutline outline = cellOutline(projector.cameraCorners(cell), frame, margin);
             const CellRecord record = projector.record(cell);
             writeCell(layout_, outline, record, layout_.gradient ? projector.gradient(cell) : CellGradient{},
                       layout_.attributes ? cellCorners(projector, record, frame, cell) : CellCorners{},
@@ -261,27 +269,14 @@ void GlEngine::writeCells(const CellProjector& projector, const CameraFrame& fra
     });
 }
 
-Image GlEngine::render(const View& view, FrameReport& report) {
-    checkPixelMaps(view);
-    Stopwatch whole, watch;
-    auto& stages = report.stageMilliseconds;
-    const CameraFrame frame = sampledFrame(view.camera, edgeOnPlanes_);
-    report.samplesBeside = frame.sampleShift == EdgeOnPlanes::widely;
-    projectPoints(*scene_.mesh, units_, frame, points_);
-    const CellProjector projector(*scene_.mesh, units_, frame, points_);
-    stages["project"] = watch.lap();
-    const std::vector<mesh::CellIndex>& cells = order_->drawnCells(projector, report);
-    stages["setup"] = watch.lap() - order_->sortMilliseconds();
-    if (report.orderMethod != "none") stages["sort"] = order_->sortMilliseconds();
-
-    const CurrentGlContext current(*context_);
-    const GlFunctions& gl = *state_->gl;
+/// Clears the target and binds all that fragments read.
+const GlCellProgram& GlEngine::beginFrame(const View& view, const CameraFrame& frame) {
     state_->target->begin(frame.width, frame.height, clearValue(mode()));
     const bool limited = view.maps != nullptr && view.maps->changeVolume();
     const double depthReference = depthReferenceOf(scene_.mesh->bounds, frame, units_);
     if (limited) {
         checkScales(*view.maps);
-        if (!state_->limits) state_->limits.emplace(gl);
+        if (!state_->limits) state_->limits.emplace(*state_->gl);
         state_->limits->upload(*view.maps, frame, units_, depthReference);
         state_->limits->bind(limitsUnit);
     }
@@ -291,18 +286,81 @@ Image GlEngine::render(const View& view, FrameReport& report) {
     cellProgram.use(frame, depthReference);
     if (fullLight_) cellProgram.setLights(frameLights(scene_.settings.shading, units_, frame), units_);
     setBlending();
-    stages["draw"] = watch.lap();
-    const double margin = outlineMargin(gl, frame);
+    return cellProgram;
+}
+
+void GlEngine::drawStreamed(const CameraFrame& frame, const GlCellProgram& cellProgram, FrameReport& report) {
+    Stopwatch watch;
+    auto& stages = report.stageMilliseconds;
+    projectPoints(*scene_.mesh, units_, frame, points_);
+    const CellProjector projector(*scene_.mesh, units_, frame, points_);
+    stages["project"] += watch.lap();
+    const std::vector<mesh::CellIndex>& cells = order_->drawnCells(projector, report);
+    stages["setup"] = watch.lap() - order_->sortMilliseconds();
+    if (report.orderMethod != "none") stages["sort"] = order_->sortMilliseconds();
+
+    cellProgram.resume();
+    const double margin = outlineMargin(*state_->gl, frame);
     const GlCellStream::Times times =
         state_->stream->draw(cells.size(), [&](std::size_t begin, std::size_t end, float* target) {
             writeCells(projector, frame, margin, cells.data() + begin, end - begin, target);
         });
     watch.lap();
     stages["setup"] += times.setup;
-    stages["upload"] = times.upload;
-    gl.Finish();
+    stages["upload"] += times.upload;
+    state_->gl->Finish();
     stages["draw"] += times.draw + watch.lap();
+    report.dataPath = "stream";
+    report.bytesUploaded += cells.size() * layout_.floats() * sizeof(float);
+}
 
+/// False where the GPU could not put all cells in order: then nothing of the frame is of use.
+bool GlEngine::drawResident(const CameraFrame& frame, const GlCellProgram& cellProgram, FrameReport& report) {
+    Stopwatch watch;
+    auto& stages = report.stageMilliseconds;
+    order_->describe(report);
+    const std::vector<mesh::CellIndex>* order = nullptr;
+    if (order_->ofWholeMesh()) {
+        projectPoints(*scene_.mesh, units_, frame, points_);
+        const CellProjector projector(*scene_.mesh, units_, frame, points_);
+        stages["project"] = watch.lap();
+        order = &order_->backToFront(projector, report);
+        stages["sort"] = watch.lap();
+    }
+    state_->resident->draw(frame, order, outlineMargin(*state_->gl, frame), [&] { cellProgram.resume(); });
+    stages["upload"] = watch.lap();  // and shaders on their way: what they take is seen only when waiting for all
+    state_->gl->Finish();
+    const GlFrameCounts counts = state_->resident->counts();
+    stages["draw"] += watch.lap();
+    report.dataPath = "resident";
+    report.bytesUploaded = state_->resident->uploadedLast();
+    report.cellsDrawn = counts.drawn;
+    if (order_->keys() != nullptr) report.cellsSorted = counts.drawn;
+    const std::uint64_t leftOut = order != nullptr ? order_->visible().size() - order->size() : 0;
+    order_->tellSkipped(counts.outsideView + leftOut, counts.noPixelCentre, report);
+    return counts.unsettled == 0;
+}
+
+Image GlEngine::render(const View& view, FrameReport& report) {
+    checkPixelMaps(view);
+    Stopwatch whole, watch;
+    auto& stages = report.stageMilliseconds;
+    const CameraFrame frame = sampledFrame(view.camera, edgeOnPlanes_);
+    report.samplesBeside = frame.sampleShift == EdgeOnPlanes::widely;
+    const CurrentGlContext current(*context_);
+    const GlCellProgram& cellProgram = beginFrame(view, frame);
+    stages["draw"] = watch.lap();
+    report.dataPathReason = pathReason_;
+    bool drawn = false;
+    if (state_->resident) {
+        drawn = drawResident(frame, cellProgram, report);
+        if (!drawn) {
+            beginFrame(view, frame);
+            report.dataPathReason = "the GPU could not put all cells in order";
+        }
+    }
+    if (!drawn) drawStreamed(frame, cellProgram, report);
+    watch.lap();
     Image image = state_->target->read();
     resolveOrderFree(image, scene_, view.camera, units_);
     stages["read back"] = watch.lap();

@@ -138,10 +138,18 @@ PowerOrder::PowerOrder(const mesh::ScalarMesh& mesh, const mesh::Adjacency& adja
     failingFaces_ = failing.size();
 }
 
+namespace {
+
+using std::max, std::min;
+using wide = double;
+#define TETRALUX_CELL_FUNCTION inline
+#include <projection/order_position.glsl>
+#undef TETRALUX_CELL_FUNCTION
+
+}  // namespace
+
 std::uint32_t orderedKey(double key, double nearest, double farthest) {
-    const double range = nearest - farthest;
-    const double position = range > 0 ? (nearest - key) / range : 0.0;
-    return static_cast<std::uint32_t>(std::clamp(position, 0.0, 1.0) * 4294967295.0);
+    return static_cast<std::uint32_t>(orderPosition(key, nearest, farthest));
 }
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Planes and scalar gradient of one projected cell, in doubles: projected_cell.inl for a single cell.
+/// The shared texts of projected cells for one cell, in doubles.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +9,19 @@
 #include <cstdint>
 #include <utility>
 
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include <projection/camera_points.h>
+#include <projection/cell_constants.h>
+
 namespace tetralux::projection::single_cell {
 
 // what the formulas call
-using std::abs, std::max, std::min;
+using glm::dot;
+using std::abs, std::ceil, std::floor, std::max, std::min, std::round, std::sqrt;
+using wide = double;
+using Pair = glm::dvec2;
 inline double select(bool condition, double ifTrue, double ifFalse) {
     return condition ? ifTrue : ifFalse;
 }
@@ -20,8 +29,22 @@ inline double copySign(double magnitude, double sign) {
     return std::copysign(magnitude, sign);
 }
 #define TETRALUX_CELL_FUNCTION inline
-#include <projection/projected_cell.inl>
+#define TETRALUX_CELL_IN(type) const type&
+#define TETRALUX_CELL_INOUT(type) type&
+// clang-format off: each stands on those before it
+#include <projection/cell_triple.inl>
+#include <projection/projected_cell.glsl>
+#include <projection/cell_depth_bounds.inl>
+#include <projection/covered_pixels.glsl>
+#include <projection/cell_outline.glsl>
+// clang-format on
 #undef TETRALUX_CELL_FUNCTION
+#undef TETRALUX_CELL_IN
+#undef TETRALUX_CELL_INOUT
+
+inline CellView viewOf(const CameraFrame& frame) {
+    return {sampleCentre(frame), frame.width, frame.height, frame.orthographic};
+}
 
 /// Puts `order`, by which the numbers of `points` then ascend, in place of 0 1 2 …; true when that turns a cell inside
 /// out (or a face over).

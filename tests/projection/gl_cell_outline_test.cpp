@@ -84,10 +84,18 @@ TEST(CellOutline, GrowsByTheMargin) {
     EXPECT_EQ(triangle[2], triangle[3]);
 }
 
-TEST(CellOutline, RectangleHoldsItsPixelCentres) {
-    const CellOutline outline = rectangleOutline({2, 3, 5, 9});
-    EXPECT_EQ(outline[0], glm::vec2(1.5f, 2.5f));
-    EXPECT_EQ(outline[2], glm::vec2(4.5f, 8.5f));
+// What has no hull is drawn as the rectangle of its pixels: where it reaches behind the eye, or too far beyond the
+// image.
+TEST(CellOutline, CellsWithoutAHullAreRectangles) {
+    const CameraFrame frame = cameraFrame({.width = 16, .height = 12});
+    for (const glm::dvec3& last : {glm::dvec3(0, 0, -1), {30000, 20, 1}}) {
+        const std::array<glm::dvec3, 4> corners{glm::dvec3(-3, -2, 1), {3, -2, 1}, {0, 3, 1}, last};
+        PixelRect rect{};
+        ASSERT_EQ(coveredPixels(corners, frame, rect), SkipReason::None);
+        const CellOutline outline = cellOutline(corners, frame, margin);
+        EXPECT_EQ(outline[0], glm::vec2(rect.x0, rect.y0) - 0.5f);
+        EXPECT_EQ(outline[2], glm::vec2(rect.x1, rect.y1) - 0.5f);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The OpenGL engine with its cells on the GPU (gl_resident_cells.h) against the one that streams them: both compile the
+// same formulas in doubles, so that records agree to the bit but for what a compiler contracts, and the order is the
+// same. Here both run on llvmpipe.
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include <projection/gl_context.h>
+#include <projection/gl_engine.h>
+#include <projection/gl_frame_target.h>
+#include <projection/gl_path.h>
+#include <projection/gl_resident_cells.h>
+#include <projection/key_sort.h>
+#include <projection/light_frame.h>
+#include <projection/visibility_order.h>
+#include <projection/visibility_relations.h>
+#include <tests/support/analytic_scenes.h>
+
+namespace tetralux::projection {
+namespace {
+
+using namespace tetralux::test;
+
+double waves(const glm::dvec3& p) {
+    return 0.5 + 0.4 * std::sin(5 * p.x + 3 * p.y) * std::cos(4 * p.z);
+}
+
+struct Picture {
+    Image image{1, 1};
+    FrameReport report;
+};
+
+std::unique_ptr<Engine> engineOf(const Scene& scene, const std::string& path, const std::string& context = "auto") {
+    EngineOptions options;
+    options.context = context;
+    options.glPath = path;
+    return makeGlEngine(scene, options);
+}
+
+Picture pictureOf(Engine& engine, const View& view) {
+    Picture picture;
+    picture.image = engine.render(view, picture.report);
+    return picture;
+}
+
+// Float rounds records whose doubles agree; a last digit may differ where a driver contracts, and every segment of a
+// pixel carries one.
+constexpr double roundingOnly = 1e-5;
+
+void expectSame(const Scene& scene, const std::vector<View>& views, const std::string& context) {
+    const auto streaming = engineOf(scene, "stream", context), keeping = engineOf(scene, "resident", context);
+    for (const View& view : views) {
+        const Picture stream = pictureOf(*streaming, view), resident = pictureOf(*keeping, view);
+        const double eye = view.camera.eye.x;
+        EXPECT_LE(compareImages(stream.image, resident.image).max, roundingOnly) << eye << ' ' << context;
+        EXPECT_EQ(stream.report.dataPath, "stream");
+        EXPECT_EQ(resident.report.dataPath, "resident") << eye;
+        EXPECT_EQ(stream.report.cellsDrawn, resident.report.cellsDrawn) << eye;
+        EXPECT_EQ(stream.report.cellsSkipped, resident.report.cellsSkipped) << eye;
+        EXPECT_EQ(stream.report.cellsSorted, resident.report.cellsSorted) << eye;
+        EXPECT_EQ(stream.report.orderMethod, resident.report.orderMethod) << eye;
+        EXPECT_GT(resident.report.cellsDrawn, 0u) << eye;
+        double strongest = 0;
+        for (const glm::vec4& pixel : stream.image.pixels)
+            strongest = std::max({strongest, static_cast<double>(pixel.x), static_cast<double>(pixel.w)});
+        EXPECT_GT(strongest, 0.05) << eye << ": the picture is empty, nothing is tested";
+    }
+}
+
+void expectSame(const Scene& scene, const std::vector<View>& views) {
+    for (const std::string context : {"egl", "osmesa"}) expectSame(scene, views, context);
+}
+
+// From outside, from between the cells, in parallel, and so near that outlines reach far beyond the image.
+std::vector<View> views() {
+    std::vector<View> all{cameraAt({1.9, 1.4, 2.3}), cameraAt({0.43, 0.51, 0.56}, {0.9, 0.6, 0.7}),
+                          cameraAt({1.9, 1.4, 2.3}), cameraAt({0.5, 0.5, 1.0001}, {0.5, 0.52, 0.5})};
+    all[1].camera.fovDegrees = 100;
+    all[2].camera.orthographicHeight = 1.4;
+    all[3].camera.fovDegrees = 2;
+    return all;
+}
+
+class ResidentModes : public testing::TestWithParam<Mode> {};
+
+TEST_P(ResidentModes, LikeStream) {
+    const Scene scene = sceneOf(jitteredBoxMesh(9, 0.2, 5, waves), smoothFunction(0.1, 0.9), GetParam());
+    expectSame(scene, views());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ResidentModes,
+                         testing::Values(Mode::Standard, Mode::ScaleInvariant, Mode::Mip, Mode::Minimum, Mode::Average,
+                                         Mode::Additive, Mode::Emission, Mode::Absorption, Mode::FirstHit, Mode::Depth,
+                                         Mode::Contribution, Mode::DataContribution));
+
+TEST(Resident, SilhouettesAndLights) {
+    Scene scene = sceneOf(jitteredBoxMesh(8, 0.2, 5, waves), smoothFunction(0.1, 0.9));
+    scene.settings.shading.silhouette = true;
+    scene.settings.shading.lights = {{glm::dvec3(0, 0, 1)}, {glm::dvec3(0.6, 0.8, 0)}};
+    expectSame(scene, {views()[0]});
+    scene.settings.shading.silhouette = false;
+    scene.settings.shading.normals = shading::Normals::Smooth;  // what vertices carry
+    expectSame(withVertexLight(scene), views(), "auto");
+}
+
+TEST(Resident, CellDataAndInvisibleCells) {
+    mesh::ScalarMesh m = jitteredBoxMesh(8, 0.2, 5, waves);
+    std::vector<double> values;
+    for (mesh::CellIndex cell = 0; cell < m.cells.size(); ++cell) values.push_back(m.scalarAt(cell, 1));
+    m.association = mesh::Association::Cell;
+    m.scalars = values;
+    Scene scene = sceneOf(finished(std::move(m)), smoothFunction(0.1, 0.9));
+    scene.transferFunction.extinction = {{0.0, 0.0}, {0.6, 0.0}, {1.0, 20.0}};
+    expectSame(scene, {views()[0]});
+}
+
+TEST(Resident, WithinPixelMaps) {
+    const Scene scene = sceneOf(jitteredBoxMesh(7, 0.1, 5, waves), smoothFunction(0.1, 0.9));
+    const Camera camera = views()[0].camera;
+    PixelMaps maps;
+    const auto pixels = static_cast<std::size_t>(camera.width * camera.height);
+    maps.nearest.assign(pixels, 2.4);
+    maps.farthest.assign(pixels, 3.0);
+    expectSame(scene, {View(camera, &maps)});
+}
+
+// An order that has no keys is made by the processor: four bytes a cell go up.
+TEST(Resident, OrderOfTheGraph) {
+    const auto hollow = [](const glm::dvec3& p) { return glm::length(p - glm::dvec3(0.5)) > 0.3; };
+    Scene scene = sceneOf(carved(jitteredBoxMesh(9, 0.2, 5, waves), hollow), smoothFunction(0.1, 0.9));
+    expectSame(scene, views());
+    const Picture resident = pictureOf(*engineOf(scene, "resident"), views()[0]);
+    EXPECT_EQ(resident.report.orderMethod, "mpvo+reentry");
+    EXPECT_LE(resident.report.bytesUploaded, 4 * scene.mesh->cells.size() + 64);
+    const Picture stream = pictureOf(*engineOf(scene, "stream"), views()[0]);
+    EXPECT_GE(stream.report.bytesUploaded, 128 * stream.report.cellsDrawn);
+}
+
+// More than one chunk of cells, and more than one block of everything else; frames one after the other.
+TEST(Resident, ManyCells) {
+    const Scene scene = sceneOf(boxMesh(33, waves), smoothFunction(0.1, 0.9));
+    ASSERT_GT(scene.mesh->cells.size(), std::size_t{1} << 17);
+    const auto resident = engineOf(scene, "resident"), stream = engineOf(scene, "stream");
+    for (const double fov : {30.0, 3.0, 40.0}) {
+        Camera camera = views()[0].camera;
+        camera.eye = {1.93, 1.37, 2.21};  // within no plane of the grid: doubles would round there
+        camera.fovDegrees = fov;
+        FrameReport one, two;
+        EXPECT_LE(compareImages(resident->render(camera, one), stream->render(camera, two)).max, roundingOnly);
+        EXPECT_EQ(one.cellsDrawn, two.cellsDrawn);
+        EXPECT_EQ(one.orderMethod, "power");
+        EXPECT_LE(one.bytesUploaded, 64u) << "nothing but the camera";
+    }
+    Camera away = views()[0].camera;
+    away.target = away.eye + (away.eye - away.target);
+    FrameReport none;
+    for (const glm::vec4& pixel : resident->render(away, none).pixels) ASSERT_EQ(pixel, glm::vec4(0));
+    EXPECT_EQ(none.cellsDrawn, 0u);
+}
+
+// A clump of cells a hundred thousandth of the mesh's size: whole-number keys cannot tell them apart, doubles can.
+TEST(Resident, TiesAreSettled) {
+    for (const int n : {3, 9}) {
+        mesh::ScalarMesh m = boxMesh(n, waves);
+        for (glm::dvec3& p : m.positions) p *= 1e-5;
+        const auto first = static_cast<mesh::PointIndex>(m.positions.size());
+        for (const glm::dvec3& p : {glm::dvec3(0.1, 0, 0), {1, 0, 0.1}, {0.2, 1, 0}, {0, 0.2, 1}}) {
+            m.positions.push_back(p);
+            m.scalars.push_back(0.7);
+        }
+        m.cells.push_back({first, first + 1, first + 2, first + 3});
+        Scene scene = sceneOf(finished(std::move(m)), smoothFunction(0.1, 0.9, 2.5e5));
+        scene.settings.table.size = 32;
+        scene.settings.order = OrderMethod::Centroid;  // which has keys for any mesh
+        Camera camera = cameraAt({1.93e-5, 1.37e-5, 2.21e-5}, glm::dvec3(0.5e-5));
+        const Picture stream = pictureOf(*engineOf(scene, "stream"), camera);
+        const Picture resident = pictureOf(*engineOf(scene, "resident"), camera);
+        EXPECT_GT(stream.report.cellsDrawn, n == 3 ? 20u : 1000u);
+        EXPECT_LE(compareImages(stream.image, resident.image).max, roundingOnly);
+        EXPECT_EQ(resident.report.dataPath, "resident") << n;
+    }
+}
+
+// Keys that are no visibility order are found out: those of centroids, of a mesh whose cells differ in shape.
+TEST(Resident, BrokenRelationsAreNoticed) {
+    const mesh::ScalarMesh m = jitteredBoxMesh(7, 0.1, 5, waves);
+    VisibilitySorter sorter(m);
+    ASSERT_EQ(sorter.method(), "power");
+    const OrderKeys centroid = OrderKeys::centroid(m);
+    std::vector<mesh::CellIndex> all(m.cells.size());
+    std::iota(all.begin(), all.end(), mesh::CellIndex{0});
+    const auto context = makeGlContext("auto");
+    const CurrentGlContext current(*context);
+    const auto gl = loadGlFunctions(*context);
+    for (const View& view : views())
+        for (const OrderKeys* keys : {&sorter.keys(), &centroid}) {
+            GlResidentCells cells(*gl, m, sceneUnits(m), all, keys, &sorter.adjacency(), {});
+            const CameraFrame frame = cameraFrame(view.camera);
+            GlFrameTarget target(*gl);
+            target.begin(frame.width, frame.height, 0.0f);
+            cells.draw(frame, nullptr, 0.01, [] {});
+            std::vector<mesh::CellIndex> drawn;
+            const CellProjector projector(m, sceneUnits(m), frame);
+            PixelRect rect;
+            for (const mesh::CellIndex cell : all)
+                if (projector.bounds(cell, rect) == SkipReason::None) drawn.push_back(cell);
+            KeySorter().sort(*keys, keys->eye(frame), drawn);
+            std::vector<std::uint32_t> places;
+            EXPECT_EQ(cells.counts().unsettled == 0, keepsFaceRelations(sorter.adjacency(), projector, drawn, places));
+            EXPECT_TRUE(keys == &centroid || cells.counts().unsettled == 0);
+            EXPECT_TRUE(keys != &centroid || drawn.size() < 500 || cells.counts().unsettled != 0);
+        }
+}
+
+TEST(GlPath, TheRule) {
+    EXPECT_TRUE(isSoftwareRenderer("llvmpipe (LLVM 15.0.6, 256 bits)"));
+    EXPECT_TRUE(isSoftwareRenderer("softpipe"));
+    EXPECT_FALSE(isSoftwareRenderer("NVIDIA H200/PCIe/SSE2"));
+    EXPECT_FALSE(isSoftwareRenderer("AMD Radeon RX 6600 (navi23, LLVM 15.0.6, DRM 3.49)"));
+    EXPECT_EQ(parseGlPath("resident"), GlPath::Resident);
+    EXPECT_THROW(parseGlPath("fast"), std::runtime_error);
+    const Scene scene = sceneOf(boxMesh(4, waves), smoothFunction(0.1, 0.9));
+    const Picture picture = pictureOf(*engineOf(scene, "auto", "osmesa"), views()[0]);  // always software
+    EXPECT_EQ(picture.report.dataPath, "stream");
+    EXPECT_EQ(picture.report.dataPathReason, "software renderer");
+}
+
+}  // namespace
+}  // namespace tetralux::projection

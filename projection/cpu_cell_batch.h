@@ -29,9 +29,9 @@ namespace tetralux::projection::HWY_NAMESPACE {
 #define TETRALUX_CELL_IN(type) const type&
 #define TETRALUX_CELL_INOUT(type) type&
 // clang-format off: each stands on those before it
+#include <projection/cell_depth_bounds.inl>
 #include <projection/cell_triple.inl>
 #include <projection/projected_cell.glsl>
-#include <projection/cell_depth_bounds.inl>
 // clang-format on
 
 /// Point numbers of the batch's cells in ascending order, and whether that order turns the cell inside out.

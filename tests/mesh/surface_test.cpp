@@ -155,7 +155,8 @@ TEST_F(ReadSurface, BadFilesAreRefusedInOneLine) {
         EXPECT_EQ(error.find('\n'), std::string::npos) << error;
         EXPECT_EQ(error.find(path + ": " + path), std::string::npos) << error;
     }
-    EXPECT_NE(errorOf((folder_ / "missing.stl").string()).find("no such surface file; check the path"), std::string::npos);
+    EXPECT_NE(errorOf((folder_ / "missing.stl").string()).find("no such surface file; check the path"),
+              std::string::npos);
 }
 
 double linear(const glm::dvec3& x) {

@@ -28,10 +28,11 @@ namespace tetralux::projection::HWY_NAMESPACE {
 #define TETRALUX_CELL_FUNCTION HWY_INLINE
 #define TETRALUX_CELL_IN(type) const type&
 #define TETRALUX_CELL_INOUT(type) type&
-// clang-format off: each stands on those before it
-#include <projection/cell_depth_bounds.inl>
+// each stands on those before it
+// clang-format off
 #include <projection/cell_triple.inl>
 #include <projection/projected_cell.glsl>
+#include <projection/cell_depth_bounds.inl>
 // clang-format on
 
 /// Point numbers of the batch's cells in ascending order, and whether that order turns the cell inside out.

@@ -31,12 +31,13 @@ inline double copySign(double magnitude, double sign) {
 #define TETRALUX_CELL_FUNCTION inline
 #define TETRALUX_CELL_IN(type) const type&
 #define TETRALUX_CELL_INOUT(type) type&
-// clang-format off: each stands on those before it
-#include <projection/cell_depth_bounds.inl>
-#include <projection/cell_outline.glsl>
+// each stands on those before it
+// clang-format off
 #include <projection/cell_triple.inl>
-#include <projection/covered_pixels.glsl>
 #include <projection/projected_cell.glsl>
+#include <projection/cell_depth_bounds.inl>
+#include <projection/covered_pixels.glsl>
+#include <projection/cell_outline.glsl>
 // clang-format on
 #undef TETRALUX_CELL_FUNCTION
 #undef TETRALUX_CELL_IN

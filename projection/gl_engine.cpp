@@ -18,6 +18,7 @@
 #include <projection/gl_cell_program.h>
 #include <projection/gl_cell_stream.h>
 #include <projection/gl_context.h>
+#include <projection/gl_fragment_count.h>
 #include <projection/gl_frame_target.h>
 #include <projection/gl_limits.h>
 #include <projection/gl_path.h>
@@ -50,6 +51,7 @@ struct GlState {
     bool linearSampler = false;
     std::optional<GlFrameTarget> target;
     std::optional<GlCellStream> stream;
+    std::optional<GlFragmentCount> fragments;
     std::optional<GlTableTexture> table;
     std::optional<GlVertexLight> vertexLight;
     std::array<std::unique_ptr<GlCellProgram>, 4> programs;  // by GlFrameKind: made when first needed
@@ -187,6 +189,7 @@ void GlEngine::makeState() {
     const GlFunctions& gl = *state_->gl;
     state_->renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
     state_->target.emplace(gl);
+    state_->fragments.emplace(gl);
     state_->stream.emplace(gl, layout_);
     if (table_) {
         state_->table.emplace(gl, *table_);
@@ -301,6 +304,7 @@ void GlEngine::drawStreamed(const CameraFrame& frame, const GlCellProgram& cellP
 
     cellProgram.resume();
     const double margin = outlineMargin(*state_->gl, frame);
+    state_->fragments->begin();
     const GlCellStream::Times times =
         state_->stream->draw(cells.size(), [&](std::size_t begin, std::size_t end, float* target) {
             writeCells(projector, frame, margin, cells.data() + begin, end - begin, target);
@@ -308,7 +312,8 @@ void GlEngine::drawStreamed(const CameraFrame& frame, const GlCellProgram& cellP
     watch.lap();
     stages["setup"] += times.setup;
     stages["upload"] += times.upload;
-    state_->gl->Finish();
+    state_->fragments->end();
+    report.fragments = state_->fragments->count();
     stages["draw"] += times.draw + watch.lap();
     report.dataPath = "stream";
     report.bytesUploaded += cells.size() * layout_.floats() * sizeof(float);
@@ -327,9 +332,11 @@ bool GlEngine::drawResident(const CameraFrame& frame, const GlCellProgram& cellP
         order = &order_->backToFront(projector, report);
         stages["sort"] = watch.lap();
     }
+    state_->fragments->begin();
     state_->resident->draw(frame, order, outlineMargin(*state_->gl, frame), [&] { cellProgram.resume(); });
     stages["upload"] = watch.lap();  // and shaders on their way: what they take is seen only when waiting for all
-    state_->gl->Finish();
+    state_->fragments->end();
+    report.fragments = state_->fragments->count();
     const GlFrameCounts counts = state_->resident->counts();
     stages["draw"] += watch.lap();
     report.dataPath = "resident";

@@ -264,6 +264,10 @@ TEST(GlEngine, ReportsWhatItDid) {
     for (const auto& [reason, count] : report.cellsSkipped) skipped += count;
     EXPECT_EQ(report.cellsDrawn + skipped, scene.mesh->cells.size());
     EXPECT_GT(report.cellsDrawn, 0u);
+    FrameReport tiles;
+    makeEngine(scene, {"cpu", "auto"})->render(camera, tiles);
+    EXPECT_NEAR(static_cast<double>(report.fragments) / static_cast<double>(tiles.fragments), 1.0, 0.05)
+        << "the tile engine counts the same segments, and those that show nothing";
     for (const char* stage : {"sort", "setup", "upload", "draw", "read back"}) {
         EXPECT_TRUE(report.stageMilliseconds.contains(stage)) << stage;
     }

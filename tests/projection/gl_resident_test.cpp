@@ -67,6 +67,11 @@ void expectSame(const Scene& scene, const std::vector<View>& views, const std::s
         EXPECT_EQ(stream.report.cellsSorted, resident.report.cellsSorted) << eye;
         EXPECT_EQ(stream.report.orderMethod, resident.report.orderMethod) << eye;
         EXPECT_GT(resident.report.cellsDrawn, 0u) << eye;
+        EXPECT_GT(resident.report.fragments, 0u) << eye;
+        // float may put a grazed pixel on either side
+        EXPECT_NEAR(static_cast<double>(stream.report.fragments) / static_cast<double>(resident.report.fragments), 1.0,
+                    1e-3)
+            << eye;
         double strongest = 0;
         for (const glm::vec4& pixel : stream.image.pixels)
             strongest = std::max({strongest, static_cast<double>(pixel.x), static_cast<double>(pixel.w)});

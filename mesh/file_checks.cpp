@@ -14,7 +14,7 @@
 
 namespace tetralux::mesh {
 
-bool hasExtension(const std::string& source, std::initializer_list<const char*> extensions) {
+bool hasExtension(const std::string& source, std::span<const char* const> extensions) {
     const auto same = [](char a, char b) {
         return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
     };

@@ -2,13 +2,17 @@
 #pragma once
 
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace tetralux::mesh {
 
 /// Whether `source` ends in one of the extensions (".vtu"), in upper or lower case.
-bool hasExtension(const std::string& source, std::initializer_list<const char*> extensions);
+bool hasExtension(const std::string& source, std::span<const char* const> extensions);
+inline bool hasExtension(const std::string& source, std::initializer_list<const char*> extensions) {
+    return hasExtension(source, std::span<const char* const>(extensions.begin(), extensions.size()));
+}
 
 /// \throws std::runtime_error naming `source` if it does not exist, is a directory, is empty or may not be read.
 void checkReadable(const std::string& source);

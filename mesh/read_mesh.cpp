@@ -2,8 +2,8 @@
 #include <mesh/read_mesh.h>
 
 #include <array>
-#include <initializer_list>
 #include <stdexcept>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ const std::array formats{
 };
 
 struct OtherKind {
-    std::initializer_list<const char*> extensions;
+    std::vector<const char*> extensions;
     const char* remedy;
 };
 

@@ -82,11 +82,18 @@ TEST_F(RenderCommand, CellsThatOverlapAreReported) {
 }
 
 TEST_F(RenderCommand, LargeMeshesAreCheckedForOverlapsWhenAsked) {
-    const std::string render = "render bucky:40 -o a.png --size 8x8 --report r.json";
+    std::string volume =
+        "# vtk DataFile Version 3.0\nvolume\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 40 40 40\nORIGIN 0 0 0\n"
+        "SPACING 1 1 1\nPOINT_DATA 64000\nSCALARS s float 1\nLOOKUP_TABLE default\n";
+    for (int i = 0; i < 64000; ++i) volume += i % 40 < 20 ? "0 " : "1 ";
+    write("large.vtk", volume);
+    const std::string render = "render large.vtk -o a.png --size 8x8 --report r.json";
     EXPECT_NE(tetralux(render).out.find("--check does it"), std::string::npos);
     EXPECT_EQ(json("r.json")["interfaces_checked"], false);
     EXPECT_EQ(tetralux(render + " --check").out.find("--check does it"), std::string::npos);
     EXPECT_EQ(json("r.json")["interfaces_checked"], true);
+    // a generated grid fits
+    EXPECT_EQ(tetralux("render bucky:40 -o a.png --size 8x8").out.find("--check"), std::string::npos);
 }
 
 TEST_F(RenderCommand, ReportHoldsWhatIsPromised) {

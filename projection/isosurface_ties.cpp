@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include <projection/edge_on_planes.h>
+#include <projection/point_pixel.h>
 
 namespace tetralux::projection {
 
@@ -75,8 +76,7 @@ void addTies(const SeenFace& face, const CameraFrame& frame, std::vector<std::ui
 /// Lines of an isosurface in the faces of one cell.
 class CellTies {
 public:
-    CellTies(const Scene& scene, const CameraFrame& frame)
-        : scene_(scene), frame_(frame), pixel_(glm::length(frame.perPixelRight)) {}
+    CellTies(const Scene& scene, const CameraFrame& frame) : scene_(scene), frame_(frame), pixelOf_(frame) {}
 
     void add(mesh::CellIndex cell, std::vector<std::uint32_t>& pixels) const {
         const mesh::ScalarMesh& mesh = *scene_.mesh;
@@ -104,17 +104,16 @@ private:
     bool see(const mesh::Tetrahedron& cell, std::array<glm::dvec2, 4>& at) const {
         for (std::size_t k = 0; k < 4; ++k) {
             const glm::dvec3 p = scene_.mesh->positions[cell[k]] - frame_.eye;
-            const double depth = glm::dot(p, frame_.forward);
+            const double depth = pixelOf_.depth(p);
             if (!(depth > 0)) return false;
-            at[k] = frame_.centre + glm::dvec2(glm::dot(p, frame_.right), -glm::dot(p, frame_.up)) /
-                                        (pixel_ * (frame_.orthographic ? 1.0 : depth));
+            at[k] = pixelOf_(p, depth);
         }
         return true;
     }
 
     const Scene& scene_;
     const CameraFrame& frame_;
-    const double pixel_;
+    const PointPixel pixelOf_;
 };
 
 }  // namespace

@@ -8,7 +8,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
+
+#include <projection/point_pixel.h>
 
 namespace tetralux::projection {
 
@@ -22,13 +23,11 @@ constexpr std::size_t chunkSize = 8192;  // cells
 
 std::vector<glm::vec2> pixelsOf(const mesh::ScalarMesh& mesh, const CameraFrame& frame) {
     std::vector<glm::vec2> points(mesh.positions.size());
-    const double pixel = glm::length(frame.perPixelRight);
+    const PointPixel pixelOf(frame);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 4096), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             const glm::dvec3 p = mesh.positions[i] - frame.eye;
-            const double depth = frame.orthographic ? 1.0 : glm::dot(p, frame.forward);
-            const glm::dvec2 at =
-                frame.centre + glm::dvec2(glm::dot(p, frame.right), -glm::dot(p, frame.up)) / (pixel * depth);
+            const glm::dvec2 at = pixelOf(p, pixelOf.depth(p));
             points[i] = glm::clamp(glm::vec2(at), -farthestPixel, farthestPixel);
         }
     });

@@ -25,6 +25,43 @@ HWY_INLINE constexpr std::size_t laneCount() {
     return hn::MaxLanes(FloatTag());
 }
 
+/// What lanes of floats and of doubles have in common. Overloads of plain functions, not templates, so that products
+/// and values of a whole cell convert.
+#define TETRALUX_LANE_OPERATIONS(lanes, lane_mask)                      \
+    HWY_INLINE lanes operator+(lanes a, lanes b) {                      \
+        return hn::Add(a.v, b.v);                                       \
+    }                                                                   \
+    HWY_INLINE lanes operator-(lanes a, lanes b) {                      \
+        return hn::Sub(a.v, b.v);                                       \
+    }                                                                   \
+    HWY_INLINE lanes operator/(lanes a, lanes b) {                      \
+        return hn::Div(a.v, b.v);                                       \
+    }                                                                   \
+    HWY_INLINE lanes operator-(lanes a) {                               \
+        return hn::Neg(a.v);                                            \
+    }                                                                   \
+    HWY_INLINE lane_mask operator<(lanes a, lanes b) {                  \
+        return hn::Lt(a.v, b.v);                                        \
+    }                                                                   \
+    HWY_INLINE lane_mask operator>(lanes a, lanes b) {                  \
+        return hn::Gt(a.v, b.v);                                        \
+    }                                                                   \
+    HWY_INLINE lanes abs(lanes a) {                                     \
+        return hn::Abs(a.v);                                            \
+    }                                                                   \
+    HWY_INLINE lanes min(lanes a, lanes b) {                            \
+        return hn::Min(a.v, b.v);                                       \
+    }                                                                   \
+    HWY_INLINE lanes max(lanes a, lanes b) {                            \
+        return hn::Max(a.v, b.v);                                       \
+    }                                                                   \
+    HWY_INLINE lanes sqrt(lanes a) {                                    \
+        return hn::Sqrt(a.v);                                           \
+    }                                                                   \
+    HWY_INLINE lanes select(lane_mask m, lanes ifTrue, lanes ifFalse) { \
+        return hn::IfThenElse(m, ifTrue.v, ifFalse.v);                  \
+    }
+
 struct real;
 /// A product that the next addition may take into a fused multiply-add.
 struct product {
@@ -48,21 +85,10 @@ struct cell_real {
 };
 
 using mask = hn::Mask<FloatTag>;
+TETRALUX_LANE_OPERATIONS(real, mask)
 
 HWY_INLINE product operator*(real a, real b) {
     return {a.v, b.v};
-}
-HWY_INLINE real operator+(real a, real b) {
-    return hn::Add(a.v, b.v);
-}
-HWY_INLINE real operator-(real a, real b) {
-    return hn::Sub(a.v, b.v);
-}
-HWY_INLINE real operator/(real a, real b) {
-    return hn::Div(a.v, b.v);
-}
-HWY_INLINE real operator-(real a) {
-    return hn::Neg(a.v);
 }
 HWY_INLINE real operator+(real a, product p) {
     return hn::MulAdd(p.a, p.b, a.v);
@@ -104,12 +130,6 @@ HWY_INLINE real& operator-=(real& a, product p) {
     return a = a - p;
 }
 
-HWY_INLINE mask operator<(real a, real b) {
-    return hn::Lt(a.v, b.v);
-}
-HWY_INLINE mask operator>(real a, real b) {
-    return hn::Gt(a.v, b.v);
-}
 HWY_INLINE mask operator==(real a, real b) {
     return hn::Eq(a.v, b.v);
 }
@@ -129,26 +149,11 @@ HWY_INLINE std::size_t count(mask m) {
     return hn::CountTrue(FloatTag(), m);
 }
 
-HWY_INLINE real abs(real a) {
-    return hn::Abs(a.v);
-}
-HWY_INLINE real min(real a, real b) {
-    return hn::Min(a.v, b.v);
-}
-HWY_INLINE real max(real a, real b) {
-    return hn::Max(a.v, b.v);
-}
-HWY_INLINE real sqrt(real a) {
-    return hn::Sqrt(a.v);
-}
 HWY_INLINE real floor(real a) {
     return hn::Floor(a.v);
 }
 HWY_INLINE real clamp(real a, real low, real high) {
     return hn::Min(hn::Max(a.v, low.v), high.v);
-}
-HWY_INLINE real select(mask m, real ifTrue, real ifFalse) {
-    return hn::IfThenElse(m, ifTrue.v, ifFalse.v);
 }
 /// `a` where m, 0 elsewhere.
 HWY_INLINE real keep(mask m, real a) {
@@ -182,49 +187,19 @@ struct wide {
     HWY_INLINE explicit wide(double value) : v(hn::Set(DoubleTag(), value)) {}
 };
 using wide_mask = hn::Mask<DoubleTag>;
+TETRALUX_LANE_OPERATIONS(wide, wide_mask)
 
 HWY_INLINE wide operator*(wide a, wide b) {
     return hn::Mul(a.v, b.v);
 }
-HWY_INLINE wide operator+(wide a, wide b) {
-    return hn::Add(a.v, b.v);
-}
-HWY_INLINE wide operator-(wide a, wide b) {
-    return hn::Sub(a.v, b.v);
-}
-HWY_INLINE wide operator/(wide a, wide b) {
-    return hn::Div(a.v, b.v);
-}
-HWY_INLINE wide operator-(wide a) {
-    return hn::Neg(a.v);
-}
-HWY_INLINE wide_mask operator<(wide a, wide b) {
-    return hn::Lt(a.v, b.v);
-}
-HWY_INLINE wide_mask operator>(wide a, wide b) {
-    return hn::Gt(a.v, b.v);
-}
-HWY_INLINE wide abs(wide a) {
-    return hn::Abs(a.v);
-}
-HWY_INLINE wide min(wide a, wide b) {
-    return hn::Min(a.v, b.v);
-}
-HWY_INLINE wide max(wide a, wide b) {
-    return hn::Max(a.v, b.v);
-}
-HWY_INLINE wide sqrt(wide a) {
-    return hn::Sqrt(a.v);
-}
 HWY_INLINE wide round(wide a) {
     return hn::Round(a.v);
-}
-HWY_INLINE wide select(wide_mask m, wide ifTrue, wide ifFalse) {
-    return hn::IfThenElse(m, ifTrue.v, ifFalse.v);
 }
 HWY_INLINE wide copySign(wide magnitude, wide sign) {
     return hn::CopySign(magnitude.v, sign.v);
 }
+
+#undef TETRALUX_LANE_OPERATIONS
 
 }  // namespace tetralux::projection::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <mesh/isolated_read.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <new>
 #include <stdexcept>
 
@@ -18,6 +20,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <mesh/file_checks.h>
 #include <mesh/soup_transfer.h>
 
 namespace tetralux::mesh {
@@ -58,12 +61,36 @@ constexpr bool canLimitMemory = true;
 constexpr bool canLimitMemory = true;
 #endif
 
-void limitChild() {
+/// What a reader may need of memory, in bytes: no compression here shrinks data to less than a few thousandths, a byte
+/// may become a double, and cells are made of it. Nothing is known of files that only name those with the data.
+std::uint64_t memoryFor(const std::string& source) {
+    constexpr std::uint64_t base = std::uint64_t{512} << 20, perByte = 65536;
+    const std::uint64_t machine = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+                                  static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE)) / 4 * 3;
+    std::error_code failed;
+    const std::uint64_t size = std::filesystem::file_size(source, failed);
+    const bool mayNameOthers =
+        hasExtension(source, {".pvtu", ".pvti", ".pvtr", ".pvts", ".pvtp", ".vtm", ".vtpd", ".vtpc", ".vth", ".vthb",
+                              ".pvd", ".case", ".encas", ".foam", ".nhdr", ".mhd", ".cgns", ".cas"});
+    return failed || mayNameOthers || size > machine / perByte ? machine : std::min(machine, base + perByte * size);
+}
+
+/// Bytes that this process may write to, which a forked one has too.
+std::uint64_t memoryInUse() {
+    std::uint64_t pages[6] = {};  // size, resident, shared, text, library, data
+    std::ifstream status("/proc/self/statm");
+    for (std::uint64_t& count : pages) {
+        status >> count;
+    }
+    return pages[5] * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+}
+
+void limitChild(const std::string& source) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     const rlimit noCore{0, 0};
     setrlimit(RLIMIT_CORE, &noCore);
-    const rlim_t physical = static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(sysconf(_SC_PAGE_SIZE));
-    const rlimit memory{physical / 4 * 3, physical / 4 * 3};
+    const rlim_t limit = memoryInUse() + memoryFor(source);
+    const rlimit memory{limit, limit};
     if (canLimitMemory) {
         setrlimit(RLIMIT_DATA, &memory);
     }
@@ -79,8 +106,8 @@ void limitChild() {
 }
 
 /// What the child does: never returns, and leaves without destructors or exit handlers, which belong to the parent.
-[[noreturn]] void runChild(int output, const std::function<CellSoup()>& read) {
-    limitChild();
+[[noreturn]] void runChild(const std::string& source, int output, const std::function<CellSoup()>& read) {
+    limitChild(source);
     ExitStatus status = notWritten;
     try {
         const CellSoup soup = read();
@@ -152,7 +179,7 @@ CellSoup readIsolated(const std::string& source, const std::function<CellSoup()>
         refuse(source, "no process can be started to read it; end others");
     }
     if (child == 0) {
-        runChild(result.get(), read);
+        runChild(source, result.get(), read);
     }
     alive.close();
     const bool ended = waitForEnd(watch.get(), timeLimit(source));
@@ -165,7 +192,9 @@ CellSoup readIsolated(const std::string& source, const std::function<CellSoup()>
     }
     const int outcome = WIFEXITED(status) ? WEXITSTATUS(status) : notWritten;
     if (outcome == outOfMemory) {
-        refuse(source, "asks for more memory than this machine has; it is damaged or needs a larger machine");
+        refuse(source,
+               "asks for more memory than a file of its size can need, or than this machine has; if it is not "
+               "damaged, take a larger machine");
     }
     if (outcome == errorWritten) {
         refuse(source, readText(result.get()));

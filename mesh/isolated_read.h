@@ -17,7 +17,8 @@ namespace tetralux::mesh {
 
 /// Runs `read` in a child process and returns what it returned. The child must not need other threads of this process.
 /// \throws std::runtime_error "source: …" with the text of the exception that `read` threw, or saying that the reader
-/// crashed, ran out of memory or took more than 10 seconds plus one per megabyte of the file.
+/// crashed, took more than 10 seconds plus one per megabyte of the file, or asked for more memory than three quarters of
+/// the machine's or, of a file that names no others, 512 MiB plus 64 KiB per byte.
 CellSoup readIsolated(const std::string& source, const std::function<CellSoup()>& read);
 
 }  // namespace tetralux::mesh

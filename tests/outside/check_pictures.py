@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""check_pictures.py PROGRAM FOLDER: holds pictures of every engine to an implementation that shares nothing with them (ray_caster.py).
+
+A jittered grid of tetrahedra with holes (not convex) and a random scalar, both integrals, jumps and isosurfaces, silhouettes, light,
+perspective and orthographic, the eye inside and outside. Status 1 and the worst pixel when an engine is farther off than it may be.
+"""
+import json
+import math
+import os
+import random
+import subprocess
+import sys
+
+import exr
+from ray_caster import Camera, Cell, TransferFunction, pixel, unit
+
+SIZE = (48, 40)
+PIXELS = 24  # per case
+# largest difference of a component. reference: an EXR holds floats; cpu: float sums, closed forms to 1e-6; gl: tables made for 1e-4
+LIMITS = {"reference": 1e-7, "cpu": 5e-6, "gl": 2e-4}
+CONTEXTS = {"gl": ["egl", "osmesa"]}
+FIVE = (((0, 1, 2, 4), (1, 3, 2, 7), (1, 2, 4, 7), (1, 4, 5, 7), (2, 6, 4, 7)), ((1, 0, 3, 5), (0, 2, 3, 6), (0, 3, 5, 6), (0, 5, 4, 6), (3, 5, 6, 7)))
+
+TRANSFER = {
+    "color": [[0, 0.1, 0.2, 0.6], [0.4, 1, 0.8, 0.4], [0.4, 0.2, 0.9, 0.3], [1, 0.9, 0.2, 0.05]],
+    "extinction": [[0.05, 0.3], [0.3, 2.0], [0.5, 0.1], [0.7, 0.1], [0.7, 4.0], [0.95, 1.0]],
+}
+PEAKS = [{"value": v, "opacity": a, "color": c} for v, a, c in ((0.21, 0.3, [1, 0.5, 0.1]), (0.52, 0.6, [0.2, 0.9, 0.3]), (0.83, 0.95, [0.1, 0.1, 1]))]
+
+
+def jittered_grid(points_per_edge, seed):
+    rng, n = random.Random(seed), points_per_edge
+    points, scalars = [], []
+    for z in range(n):
+        for y in range(n):
+            for x in range(n):
+                points.append(tuple((c + rng.uniform(-0.12, 0.12)) / (n - 1) for c in (x, y, z)))
+                scalars.append(rng.random())
+    tetrahedra = []
+    for z in range(n - 1):
+        for y in range(n - 1):
+            for x in range(n - 1):
+                corner = [(x + (i & 1)) + n * ((y + (i >> 1 & 1)) + n * (z + (i >> 2))) for i in range(8)]
+                cube = FIVE[(x + y + z) % 2]
+                tetrahedra += [tuple(corner[i] for i in tet) for tet in cube if rng.random() > 0.15]
+    return points, scalars, tetrahedra
+
+
+def write_vtk(path, points, scalars, tetrahedra):
+    with open(path, "w") as out:
+        out.write("# vtk DataFile Version 3.0\na jittered grid with holes\nASCII\nDATASET UNSTRUCTURED_GRID\n")
+        out.write(f"POINTS {len(points)} double\n" + "\n".join("%r %r %r" % p for p in points))
+        out.write(f"\nCELLS {len(tetrahedra)} {5 * len(tetrahedra)}\n" + "\n".join("4 %d %d %d %d" % t for t in tetrahedra))
+        out.write(f"\nCELL_TYPES {len(tetrahedra)}\n" + "10\n" * len(tetrahedra))
+        out.write(f"POINT_DATA {len(points)}\nSCALARS s double 1\nLOOKUP_TABLE default\n" + "\n".join(map(repr, scalars)) + "\n")
+
+
+def cases():
+    outside, inside = Camera((1.9, 1.4, 2.3), (0.5, 0.5, 0.5)), Camera((0.43, 0.55, 0.61), (0.9, 0.2, 0.1), fov=70.0)
+    flat = Camera((0.5, 0.5, 3.0), (0.5, 0.5, 0.5), height=1.3)
+    plain = {"silhouette": False, "lights": [], "ambient": 0.1, "exponent": 32}
+    lit = dict(plain, lights=[unit((1, 2, 3)), unit((-3, 1, 0.5))], ambient=0.2, exponent=8)
+    for mode in ("standard", "scale-invariant"):
+        for peaks in ([], PEAKS):
+            for name, camera in (("outside", outside), ("inside", inside), ("orthographic", flat)):
+                yield f"{mode} {'isosurfaces ' if peaks else ''}{name}", mode, peaks, camera, plain
+        yield f"{mode} light", mode, PEAKS, outside, lit
+        yield f"{mode} silhouettes", mode, PEAKS, outside, dict(plain, silhouette=True)
+    yield "scale-invariant silhouettes light", "scale-invariant", PEAKS, outside, dict(lit, silhouette=True)
+
+
+def triple(values):
+    return ",".join(map(repr, values))
+
+
+def draw(program, mesh, transfer, out, mode, camera, look, engine):
+    command = [program, "render", mesh, "-o", out, "--tf", transfer, "--mode", mode, "--size", "%dx%d" % SIZE, "--quiet", *engine,
+               "--eye=" + triple(camera.eye), "--target=" + triple(camera.target)]
+    command += ["--height", repr(camera.height)] if camera.height else ["--fov", repr(camera.fov)]
+    command += ["--silhouette"] if look["silhouette"] else []
+    command += ["--light=" + triple(light) for light in look["lights"]]
+    command += ["--ambient", repr(look["ambient"]), "--exponent", repr(look["exponent"])] if look["lights"] else []
+    subprocess.run(command, check=True)
+    return exr.read(out)
+
+
+def difference(a, b):
+    """The largest of a pixel's components; infinite where one is not a number."""
+    return max(abs(p - q) if math.isfinite(p) else math.inf for p, q in zip(a, b))
+
+
+def main(program, folder):
+    os.makedirs(folder, exist_ok=True)
+    mesh, transfer, picture = (os.path.join(folder, name) for name in ("mesh.vtk", "transfer.json", "picture.exr"))
+    points, scalars, tetrahedra = jittered_grid(5, seed=3)
+    write_vtk(mesh, points, scalars, tetrahedra)
+    cells = [Cell([points[i] for i in tet], [scalars[i] for i in tet]) for tet in tetrahedra]
+    failures, rng = 0, random.Random(7)
+    for name, mode, peaks, camera, look in cases():
+        description = dict(TRANSFER, isosurfaces=peaks)
+        with open(transfer, "w") as out:
+            json.dump(description, out)
+        wanted = {}
+        for _ in range(PIXELS):
+            x, y = rng.randrange(SIZE[0] // 4, 3 * SIZE[0] // 4), rng.randrange(SIZE[1] // 4, 3 * SIZE[1] // 4)
+            wanted[x, y] = pixel(cells, camera, TransferFunction(description), mode, look, x, y, SIZE)
+        for engine, limit in LIMITS.items():
+            for context in CONTEXTS.get(engine, [None]):
+                options = ["--engine", engine] + (["--context", context] if context else [])
+                rows = draw(program, mesh, transfer, picture, mode, camera, look, options)
+                worst, at = max((difference(rows[y][x], value), (x, y)) for (x, y), value in wanted.items())
+                wrong = worst > limit
+                failures += wrong
+                print(f"{'WRONG ' if wrong else ''}{name}: {engine}{' ' + context if context else ''} {worst:.1e} at {at}, limit {limit:.0e}")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1], sys.argv[2]))

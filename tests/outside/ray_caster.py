@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What an image is, written down once more from the definitions alone and in another language, to hold the program's pictures to.
+
+Nothing of the program's is used: every cell is cut by every ray through its barycentric coordinates, cells are sorted along the ray, and the
+integrals are sums of Gauss-Legendre quadrature between the transfer function's nodes. Slow, and without a single shortcut.
+"""
+import math
+
+# Gauss-Legendre, eight points on [-1, 1]: exact for polynomials of degree 15.
+_POINTS = [0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363]
+_WEIGHTS = [0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763]
+QUADRATURE = [(0.5 + 0.5 * s * x, 0.5 * w) for x, w in zip(_POINTS, _WEIGHTS) for s in (-1, 1)]
+
+
+def sub(a, b):
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def along(a, t, d):
+    return (a[0] + t * d[0], a[1] + t * d[1], a[2] + t * d[2])
+
+
+def unit(a):
+    length = math.sqrt(dot(a, a))
+    return (a[0] / length, a[1] / length, a[2] / length)
+
+
+class Camera:
+    """`height` makes it orthographic, else `fov` degrees from the top to the bottom of the image."""
+
+    def __init__(self, eye, target, up=(0, 1, 0), fov=30.0, height=None):
+        self.eye, self.target, self.fov, self.height = eye, target, fov, height
+        self.forward = unit(sub(target, eye))
+        self.right = unit(cross(self.forward, up))
+        self.up = cross(self.right, self.forward)
+
+    def ray(self, x, y, size):
+        width, height = size
+        half = self.height / 2 if self.height else math.tan(math.radians(self.fov) / 2)
+        across, upward = (2 * (x + 0.5) - width) / height * half, (height - 2 * (y + 0.5)) / height * half
+        moved = along(along(self.eye if self.height else self.forward, across, self.right), upward, self.up)
+        return (moved, self.forward) if self.height else (self.eye, unit(moved))
+
+
+class Cell:
+    """A tetrahedron with a linear scalar: barycentric coordinate i at p is dot(normals[i], p − corners[0]) + (1 for i = 0)."""
+
+    def __init__(self, corners, scalars):
+        self.origin, self.scalars = corners[0], scalars
+        e = [sub(c, corners[0]) for c in corners[1:]]
+        volume = dot(e[0], cross(e[1], e[2]))
+        n = [tuple(v / volume for v in cross(e[i], e[(i + 1) % 3])) for i in (1, 2, 0)]
+        self.normals = [tuple(-(n[0][k] + n[1][k] + n[2][k]) for k in range(3))] + n
+        self.gradient = tuple(sum((scalars[i + 1] - scalars[0]) * n[i][k] for i in range(3)) for k in range(3))
+
+    def interval(self, origin, d):
+        enter, leave, offset = 0.0, math.inf, sub(origin, self.origin)
+        for i, normal in enumerate(self.normals):
+            here, slope = dot(normal, offset) + (i == 0), dot(normal, d)
+            if slope > 0:
+                enter = max(enter, -here / slope)
+            elif slope < 0:
+                leave = min(leave, -here / slope)
+            elif here < 0:
+                return None
+        return (enter, leave) if enter < leave else None
+
+    def scalar(self, p):
+        return self.scalars[0] + dot(self.gradient, sub(p, self.origin))
+
+
+class TransferFunction:
+    """`description` as in a transfer function file (not normalized)."""
+
+    def __init__(self, description):
+        self.color, self.extinction = description["color"], description["extinction"]
+        self.peaks = description.get("isosurfaces", [])
+        self.nodes = sorted({n[0] for n in self.color} | {n[0] for n in self.extinction})
+
+    @staticmethod
+    def at(nodes, s, towards):
+        """Value at s; where a node is given twice, the one on the side of `towards`."""
+        if s < nodes[0][0] or (s == nodes[0][0] and towards <= s):
+            return nodes[0][1:]
+        for a, b in zip(nodes, nodes[1:]):
+            if a[0] <= s <= b[0] and a[0] < b[0] and not (s == b[0] and towards > s) and not (s == a[0] and towards < s):
+                f = (s - a[0]) / (b[0] - a[0])
+                return [(1 - f) * p + f * q for p, q in zip(a[1:], b[1:])]
+        return nodes[-1][1:]
+
+
+def _piece(tf, front, back, length):
+    """Colour and optical depth of a run between two neighbouring nodes, where colour and extinction are linear."""
+    t0, t1 = tf.at(tf.extinction, front, back)[0], tf.at(tf.extinction, back, front)[0]
+    c0, c1 = tf.at(tf.color, front, back), tf.at(tf.color, back, front)
+    parts = max(1, math.ceil((t0 + t1) / 2 * length))  # the integrand falls by 1/e at most within a part
+    color = [0.0, 0.0, 0.0]
+    for k in range(parts):
+        for x, weight in QUADRATURE:
+            f = (k + x) / parts
+            emitted = weight / parts * length * (t0 + (t1 - t0) * f) * math.exp(-length * (t0 * f + (t1 - t0) * f * f / 2))
+            for i in range(3):
+                color[i] += emitted * (c0[i] + (c1[i] - c0[i]) * f)
+    return color, (t0 + t1) / 2 * length
+
+
+def segment(tf, mode, front, back, length):
+    """Colour, optical depth without the peaks, transparency of the peaks (design: "The two integrals")."""
+    if mode == "scale-invariant":
+        length = abs(back - front)
+    crossed = [p for p in tf.peaks if (front < p["value"]) != (back < p["value"])]
+    low, high = min(front, back), max(front, back)
+    events = [(n, None) for n in tf.nodes if low < n < high] + [(p["value"], p) for p in crossed]
+    events.sort(key=lambda e: e[0], reverse=back < front)
+    color, depth, through, here = [0.0, 0.0, 0.0], 0.0, 1.0, front
+    for value, peak in events + [(back, None)]:
+        run = length * (abs(value - here) / abs(back - front) if back != front else 1.0)
+        if run > 0:
+            emitted, d = _piece(tf, here, value, run)
+            for i in range(3):
+                color[i] += through * math.exp(-depth) * emitted[i]
+            depth += d
+        here = value
+        if peak:
+            for i in range(3):
+                color[i] += through * math.exp(-depth) * peak["opacity"] * peak["color"][i]
+            through *= 1 - peak["opacity"]
+    return color, depth, through
+
+
+def _lit(color, opacity, normal, d, facing, look):
+    """Equation 19 for lights of intensity 1: ambient, and one term per light, C_spec = 1."""
+    diffuse = [c / opacity for c in color]
+    out = [look["ambient"] * c for c in color]
+    if normal is None:
+        return out
+    view = tuple(-x for x in d)
+    for light in look["lights"]:
+        side = dot(light, normal)
+        if side * facing > 0:
+            lobe, weight = tuple(2 * side * n - l for n, l in zip(normal, light)), opacity
+        elif side * facing < 0:
+            lobe, weight = tuple(-l for l in light), opacity * (1 - opacity)
+        else:
+            continue
+        specular = max(dot(lobe, view), 0.0) ** look["exponent"]
+        for i in range(3):
+            out[i] += weight * (diffuse[i] * abs(side) + specular)
+    return out
+
+
+def pixel(cells, camera, tf, mode, look, x, y, size):
+    """Premultiplied (r, g, b, a) over nothing. `look`: {"silhouette": bool, "lights": [unit vectors], "ambient", "exponent"}."""
+    origin, d = camera.ray(x, y, size)
+    met = sorted(((*interval, cell) for cell in cells if (interval := cell.interval(origin, d))), key=lambda m: m[0] + m[1])
+    color, transparency = [0.0, 0.0, 0.0], 1.0
+    for enter, leave, cell in met:
+        front, back = cell.scalar(along(origin, enter, d)), cell.scalar(along(origin, leave, d))
+        emitted, depth, through = segment(tf, mode, front, back, leave - enter)
+        opacity = 1 - math.exp(-depth) * through
+        if opacity <= 0:
+            continue
+        size_of_gradient = math.sqrt(dot(cell.gradient, cell.gradient))
+        slope = dot(cell.gradient, d)
+        if look["silhouette"] and slope != 0:
+            enhanced = 1 - (1 - opacity) ** (size_of_gradient / abs(slope))
+            emitted = [c * enhanced / opacity for c in emitted]
+            opacity = enhanced
+        if look["lights"]:
+            normal = unit(cell.gradient) if size_of_gradient > 0 else None
+            emitted = _lit(emitted, opacity, normal, d, (front > back) - (front < back), look)
+        for i in range(3):
+            color[i] += transparency * emitted[i]
+        transparency *= 1 - opacity
+    return (*color, 1 - transparency)

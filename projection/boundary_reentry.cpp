@@ -21,9 +21,10 @@ namespace tetralux::projection {
 
 namespace {
 
-std::array<mesh::PointIndex, 3> facePoints(const mesh::ScalarMesh& mesh, const BoundaryFace& face) {
-    const auto& local = mesh::faceVertices[static_cast<std::size_t>(face.face)];
-    const mesh::Tetrahedron& cell = mesh.cells[face.cell];
+using Corners = std::array<mesh::PointIndex, 3>;
+
+Corners cornersOf(const mesh::Tetrahedron& cell, std::size_t face) {
+    const auto& local = mesh::faceVertices[face];
     return {cell[static_cast<std::size_t>(local[0])], cell[static_cast<std::size_t>(local[1])],
             cell[static_cast<std::size_t>(local[2])]};
 }
@@ -35,10 +36,10 @@ struct HalfEdge {
     mesh::PointIndex opposite;
 };
 
-std::vector<HalfEdge> sortedHalfEdges(const mesh::ScalarMesh& mesh, const std::vector<BoundaryFace>& boundary) {
+std::vector<HalfEdge> sortedHalfEdges(const std::vector<BoundaryFace>& boundary) {
     std::vector<HalfEdge> edges(3 * boundary.size());
     tbb::parallel_for(std::size_t{0}, boundary.size(), [&](std::size_t i) {
-        const auto p = facePoints(mesh, boundary[i]);
+        const Corners& p = boundary[i].corners;
         for (std::size_t k = 0; k < 3; ++k) {
             const auto [low, high] = std::minmax(p[(k + 1) % 3], p[(k + 2) % 3]);
             edges[3 * i + k] = {std::uint64_t{low} << 32 | high, static_cast<std::uint32_t>(i), p[k]};
@@ -50,7 +51,7 @@ std::vector<HalfEdge> sortedHalfEdges(const mesh::ScalarMesh& mesh, const std::v
 
 /// Whether `point` lies outside of the face's plane by more than rounding.
 bool liesOutside(const mesh::ScalarMesh& mesh, const BoundaryFace& face, mesh::PointIndex point) {
-    const auto p = facePoints(mesh, face);
+    const Corners& p = face.corners;
     const glm::dvec3 a = mesh.positions[p[0]];
     const glm::dvec3 ab = mesh.positions[p[1]] - a, ac = mesh.positions[p[2]] - a, toPoint = mesh.positions[point] - a;
     const glm::dvec3 normal = glm::cross(ab, ac);
@@ -72,19 +73,19 @@ private:
 
 }  // namespace
 
-std::vector<BoundaryFace> boundaryFaces(const mesh::Adjacency& adjacency) {
+std::vector<BoundaryFace> boundaryFaces(const mesh::ScalarMesh& mesh, const mesh::Adjacency& adjacency) {
     std::vector<BoundaryFace> faces;
     faces.reserve(adjacency.boundaryFaces);
     for (std::size_t cell = 0; cell < adjacency.neighbours.size(); ++cell)
-        for (int k = 0; k < 4; ++k)
-            if (adjacency.neighbours[cell][static_cast<std::size_t>(k)] == mesh::Adjacency::noNeighbour)
-                faces.push_back({static_cast<mesh::CellIndex>(cell), k});
+        for (std::size_t k = 0; k < 4; ++k)
+            if (adjacency.neighbours[cell][k] == mesh::Adjacency::noNeighbour)
+                faces.push_back({static_cast<mesh::CellIndex>(cell), cornersOf(mesh.cells[cell], k)});
     return faces;
 }
 
 bool boundaryIsConvex(const mesh::ScalarMesh& mesh, const std::vector<BoundaryFace>& boundary) {
     if (boundary.empty()) return false;
-    const std::vector<HalfEdge> edges = sortedHalfEdges(mesh, boundary);
+    const std::vector<HalfEdge> edges = sortedHalfEdges(boundary);
     DisjointSets surfaces(boundary.size());
     for (std::size_t i = 0; i < edges.size(); i += 2) {
         // an edge of a closed surface without self-contact has exactly two faces
@@ -150,7 +151,7 @@ private:
     PixelRect rectOf(const BoundaryFace& face) const {
         glm::dvec2 low(1e300), high(-1e300);
         bool front = false, behind = false;
-        for (mesh::PointIndex p : facePoints(mesh_, face)) {
+        for (mesh::PointIndex p : face.corners) {
             const CameraPoint& v = points_[p];
             (v.z > 0 ? front : behind) = true;
             const glm::dvec2 at = frame_.orthographic ? glm::dvec2(v.x, v.y) : glm::dvec2(v.x / v.z, v.y / v.z);
@@ -236,7 +237,7 @@ private:
 
     /// Appends where rays of the rows [y0, y1) pass the face, by the sides of its edges.
     void meet(const BoundaryFace& face, const PixelRect& rect, int y0, int y1, std::vector<PixelEvent>& met) const {
-        const auto p = facePoints(mesh_, face);
+        const Corners& p = face.corners;
         const std::array side{sideOf(p[1], p[2]), sideOf(p[2], p[0]), sideOf(p[0], p[1])};
         const glm::dvec3 depths(points_[p[0]].z, points_[p[1]].z, points_[p[2]].z);
         const glm::dvec2 shift = -sampleCentre(frame_);
@@ -275,8 +276,8 @@ private:
         const auto width = static_cast<std::uint32_t>(frame_.width);
         const glm::dvec2 at = glm::dvec2(pixel % width, pixel / width) - sampleCentre(frame_);
         double nearest = std::numeric_limits<double>::infinity();
-        for (int face = 0; face < 4; ++face) {
-            const auto p = facePoints(mesh_, {cell, face});
+        for (std::size_t face = 0; face < 4; ++face) {
+            const Corners p = cornersOf(mesh_.cells[cell], face);
             const glm::dvec3 w(sideOf(p[1], p[2]).at(at.x, at.y), sideOf(p[2], p[0]).at(at.x, at.y),
                                sideOf(p[0], p[1]).at(at.x, at.y));
             const glm::dvec3 depths(points_[p[0]].z, points_[p[1]].z, points_[p[2]].z);

@@ -5,6 +5,7 @@
 /// image shows the mesh at pixel centres only, so relations sampled there order everything that can be seen.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -16,13 +17,13 @@
 
 namespace tetralux::projection {
 
-/// A face of a cell without neighbour.
+/// A face of a cell without neighbour, its corners counter-clockwise from outside.
 struct BoundaryFace {
     mesh::CellIndex cell;
-    int face;
+    std::array<mesh::PointIndex, 3> corners;
 };
 
-std::vector<BoundaryFace> boundaryFaces(const mesh::Adjacency& adjacency);
+std::vector<BoundaryFace> boundaryFaces(const mesh::ScalarMesh& mesh, const mesh::Adjacency& adjacency);
 
 /// True when the boundary is one closed surface that is nowhere concave: then every ray meets the mesh in one interval.
 /// Tolerance 1e-9 of the edge lengths.

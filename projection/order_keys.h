@@ -10,6 +10,7 @@
 
 #include <mesh/tet_mesh.h>
 #include <projection/camera.h>
+#include <projection/diagonal_units.h>
 
 namespace tetralux::projection {
 
@@ -29,15 +30,14 @@ public:
     /// them anew each frame would take four times the time of reading them.
     const std::vector<glm::dvec4>& planes() const { return planes_; }
 
-    /// What a plane is multiplied by: the eye's place and 1, or the direction towards the eye and 0. Larger is nearer.
-    glm::dvec4 eye(const CameraFrame& frame) const;
+    /// What a plane is multiplied by. Larger is nearer.
+    glm::dvec4 eye(const CameraFrame& frame) const { return units_.eye(frame); }
 
 private:
     explicit OrderKeys(const mesh::ScalarMesh& mesh);
 
     std::vector<glm::dvec4> planes_;
-    glm::dvec3 centre_{0};
-    double perLength_ = 1.0;
+    DiagonalUnits units_;
 };
 
 /// Value of a plane at the eye; the larger, the nearer the cell.

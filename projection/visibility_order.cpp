@@ -24,6 +24,9 @@ struct VisibilitySorter::State {
     OrderKeys keys;
     std::uint64_t failingFaces = 0;
     mesh::Adjacency adjacency;
+    RoundedPlanes planes;
+    VisibilityRelations relations{adjacency, planes};
+    std::vector<std::uint32_t> nearer;
     std::vector<BoundaryFace> boundary;  // empty when it is convex: nothing to look for
     VisibilityOrder last;
     std::optional<CameraFrame> lastFrame;
@@ -37,19 +40,21 @@ struct VisibilitySorter::State {
             return;
         }
         adjacency = mesh::buildAdjacency(m.cells, m.positions.size());
-        boundary = boundaryFaces(adjacency);
+        boundary = boundaryFaces(mesh, adjacency);
         const bool convex =
             adjacency.nonManifoldFaces == 0 && adjacency.foldedFaces == 0 && boundaryIsConvex(mesh, boundary);
         method = convex ? "mpvo" : "mpvo+reentry";
-        if (!convex) return;
-        boundary = {};
-        if (wanted == OrderMethod::Graph) return;
-        const PowerOrder power(mesh, adjacency);
-        failingFaces = power.failingFaces();
-        if (failingFaces > 0) return;
-        method = "power";
-        keys = OrderKeys::power(mesh, power.heights());
-        if (use == Use::Keys) adjacency = {};
+        if (convex) boundary = {};
+        if (convex && wanted != OrderMethod::Graph) {
+            const PowerOrder power(mesh, adjacency);
+            failingFaces = power.failingFaces();
+            if (failingFaces == 0) {
+                method = "power";
+                keys = OrderKeys::power(mesh, power.heights());
+                if (use == Use::Keys) adjacency = {};
+            }
+        }
+        if (!adjacency.neighbours.empty()) planes = RoundedPlanes(mesh);
     }
 };
 
@@ -88,28 +93,32 @@ double distanceOf(const mesh::ScalarMesh& mesh, const CameraFrame& frame, mesh::
 }
 
 /// Williams' MPVO as a topological sort (Kahn), nearest first. Where only cycles are left the nearest remaining cell is
-/// taken out of turn: `forced` counts those.
-std::vector<mesh::CellIndex> sortedByRelations(const VisibilityRelations& relations, const mesh::ScalarMesh& mesh,
-                                               const CameraFrame& frame, std::uint64_t& forced) {
+/// taken out of turn: `cyclicCells` counts those. `nearer` is memory kept from call to call.
+void sortByRelations(const VisibilityRelations& relations, const mesh::ScalarMesh& mesh, const CameraFrame& frame,
+                     std::vector<std::uint32_t>& nearer, VisibilityOrder& order) {
+    constexpr std::size_t ahead = 12;  // cells whose neighbours come into the cache while others are looked at
     const std::size_t count = relations.cellCount();
-    std::vector<std::uint32_t> nearer(count);  // how many unordered cells lie directly in front
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const auto& range) {
+    nearer.resize(count);  // how many unordered cells lie directly in front
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 8192), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i)
-            relations.eachBefore(static_cast<mesh::CellIndex>(i), [&](mesh::CellIndex) { ++nearer[i]; });
+            nearer[i] = relations.countBefore(static_cast<mesh::CellIndex>(i));
     });
-    std::vector<mesh::CellIndex> sorted;
-    sorted.reserve(count);
+    order.frontToBack.resize(count);
+    mesh::CellIndex* const sorted = order.frontToBack.data();
+    std::size_t done = 0, found = 0;
     for (mesh::CellIndex cell = 0; cell < count; ++cell)
-        if (nearer[cell] == 0) sorted.push_back(cell);
-    std::size_t done = 0;
+        if (nearer[cell] == 0) sorted[found++] = cell;
     auto drain = [&] {
-        while (done < sorted.size())
+        while (done < found) {
+            if (done + ahead < found) relations.prefetch(sorted[done + ahead]);
             relations.eachBehind(sorted[done++], [&](mesh::CellIndex cell) {
-                if (nearer[cell] > 0 && --nearer[cell] == 0) sorted.push_back(cell);
+                if (nearer[cell] > 0 && --nearer[cell] == 0) sorted[found++] = cell;
             });
+        }
     };
     drain();
-    if (sorted.size() == count) return sorted;
+    order.cyclicCells = 0;
+    if (found == count) return;
 
     std::vector<std::pair<double, mesh::CellIndex>> remaining;
     for (mesh::CellIndex cell = 0; cell < count; ++cell)
@@ -117,12 +126,11 @@ std::vector<mesh::CellIndex> sortedByRelations(const VisibilityRelations& relati
     std::sort(remaining.begin(), remaining.end());
     for (const auto& [distance, cell] : remaining) {
         if (nearer[cell] == 0) continue;
-        ++forced;
+        ++order.cyclicCells;
         nearer[cell] = 0;
-        sorted.push_back(cell);
+        sorted[found++] = cell;
         drain();
     }
-    return sorted;
 }
 
 void invert(const std::vector<mesh::CellIndex>& order, std::vector<std::uint32_t>& places) {
@@ -160,7 +168,7 @@ bool sameView(const CameraFrame& a, const CameraFrame& b) {
 /// relation. Which pixels a cycle leaves in doubt is told by the relations that the order breaks.
 void VisibilitySorter::State::findOrder(const CellProjector& projector) {
     const CameraFrame& frame = projector.frame();
-    VisibilityRelations relations(adjacency, projector);
+    relations.see(projector);
     last.doubtfulPixels.clear();
     if (!boundary.empty()) {
         Reentry reentry = findReentry(mesh, boundary, frame, projector.points());
@@ -173,9 +181,7 @@ void VisibilitySorter::State::findOrder(const CellProjector& projector) {
         const std::vector<CellPair> wrong = relations.violations(last.places);
         last.upkeep = wrong.empty() ? "kept" : "repaired";
         if (wrong.empty()) return;
-        if (keys.empty() && repairOrder(relations, wrong, last.frontToBack, last.places) &&
-            relations.violations(last.places).empty())
-            return;
+        if (keys.empty() && repairOrder(relations, wrong, last.frontToBack, last.places)) return;
     }
     last.upkeep = "sorted";
     if (!keys.empty()) {
@@ -183,7 +189,7 @@ void VisibilitySorter::State::findOrder(const CellProjector& projector) {
         invert(last.frontToBack, last.places);
         if (relations.violations(last.places).empty()) return;  // else keys rounded, or the eye is far away
     }
-    last.frontToBack = sortedByRelations(relations, mesh, frame, last.cyclicCells);
+    sortByRelations(relations, mesh, frame, nearer, last);
     invert(last.frontToBack, last.places);
     if (last.cyclicCells > 0) doubtPairs(relations.violations(last.places), projector, frame, last.doubtfulPixels);
 }

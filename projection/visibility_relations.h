@@ -8,6 +8,7 @@
 
 #include <mesh/adjacency.h>
 #include <projection/cell_setup.h>
+#include <projection/rounded_planes.h>
 
 namespace tetralux::projection {
 
@@ -19,13 +20,30 @@ using CellPair = std::pair<mesh::CellIndex, mesh::CellIndex>;
 /// between them, so an order that keeps all relations is right in every pixel.
 class VisibilityRelations {
 public:
-    /// Sides of all faces, in parallel. A face seen edge-on is in front for neither of its cells: no relation.
-    VisibilityRelations(const mesh::Adjacency& adjacency, const CellProjector& projector);
+    /// Both are kept by reference. `planes`: all of the mesh's, or none, which takes longer.
+    VisibilityRelations(const mesh::Adjacency& adjacency, const RoundedPlanes& planes)
+        : adjacency_(adjacency), planes_(planes) {}
+
+    /// Sides of all faces as this frame's eye sees them, in parallel; no gaps. A face seen edge-on is in front for
+    /// neither of its cells: no relation.
+    void see(const CellProjector& projector);
 
     /// Pairs across gaps: unique and sorted.
     void setGaps(std::vector<CellPair> gaps);
 
     std::size_t cellCount() const { return sides_.size(); }
+
+    /// How many cells lie directly in front of `cell`.
+    std::uint32_t countBefore(mesh::CellIndex cell) const {
+        const unsigned sides = sides_[cell];
+        std::uint32_t count = (sides & 1u) + (sides >> 1 & 1u) + (sides >> 2 & 1u) + (sides >> 3 & 1u);
+        if (!(sides & gapBefore)) return count;
+        for (auto i = firstOf(reversedGaps_, cell); i != reversedGaps_.end() && i->first == cell; ++i) ++count;
+        return count;
+    }
+
+    /// eachBehind of this cell will be asked for soon.
+    void prefetch(mesh::CellIndex cell) const { __builtin_prefetch(&adjacency_.neighbours[cell]); }
 
     /// Calls visit(cell) for each cell that lies directly behind `cell`.
     template <class Visit>
@@ -43,14 +61,15 @@ public:
         for (auto i = firstOf(reversedGaps_, cell); i != reversedGaps_.end() && i->first == cell; ++i) visit(i->second);
     }
 
-    /// Whether an order is worth repairing, by a sample of the cells: false where there are about twice as many
-    /// violations as repairOrder takes, or more.
+    /// Whether an order is worth repairing, by a sample of the cells.
     bool mostlyHold(const std::vector<std::uint32_t>& places) const;
 
     /// Pairs that the places (one per cell, ascending from the eye) have the wrong way round.
     std::vector<CellPair> violations(const std::vector<std::uint32_t>& places) const;
 
 private:
+    std::uint16_t innerSides(mesh::CellIndex cell, unsigned certain, const CellProjector& projector) const;
+
     // bit k: face k shows its outside to the eye; bit 4 + k: its inside
     static constexpr std::uint16_t gapBehind = 1u << 8, gapBefore = 1u << 9;
 
@@ -62,6 +81,7 @@ private:
     static std::vector<CellPair>::const_iterator firstOf(const std::vector<CellPair>& pairs, mesh::CellIndex cell);
 
     const mesh::Adjacency& adjacency_;
+    const RoundedPlanes& planes_;
     std::vector<std::uint16_t> sides_;  // only of faces with a neighbour
     std::vector<CellPair> gaps_, reversedGaps_;
 };

@@ -156,8 +156,9 @@ TEST(OrderUpkeep, KeptAndRepairedOrdersAreRight) {
 TEST(OrderUpkeep, RepairMovesFewCellsOrSaysNo) {
     const mesh::ScalarMesh m = jitteredBoxMesh(6, 0.2, 5, plain);
     const mesh::Adjacency adjacency = mesh::buildAdjacency(m.cells, m.positions.size());
-    const VisibilityRelations relations(adjacency,
-                                        CellProjector(m, sceneUnits(m), cameraFrame(cameraAt({1.9, 1.4, 2.3}))));
+    const RoundedPlanes planes(m);
+    VisibilityRelations relations(adjacency, planes);
+    relations.see(CellProjector(m, sceneUnits(m), cameraFrame(cameraAt({1.9, 1.4, 2.3}))));
     const VisibilityOrder right = VisibilitySorter(m).sort(cameraFrame(cameraAt({1.9, 1.4, 2.3})));
     EXPECT_TRUE(relations.violations(right.places).empty());
 
@@ -270,7 +271,7 @@ TEST(EdgeOnPlanes, SamplesStandAsideOnlyWhereAPlanePassesPixelCentres) {
 
 TEST(BoundaryIsConvex, TellsBoxesFromCarvedBoxes) {
     auto convex = [](const mesh::ScalarMesh& m) {
-        return boundaryIsConvex(m, boundaryFaces(mesh::buildAdjacency(m.cells, m.positions.size())));
+        return boundaryIsConvex(m, boundaryFaces(m, mesh::buildAdjacency(m.cells, m.positions.size())));
     };
     const mesh::ScalarMesh box = jitteredBoxMesh(5, 0.2, 1, plain);
     EXPECT_TRUE(convex(box));

@@ -219,15 +219,17 @@ private:
         glm::dvec2 origin, rate;
         double constant;
 
-        double at(double x, double y) const { return constant + rate.x * (x - origin.x) + rate.y * (y - origin.y); }
+        double inRow(double y) const { return constant + rate.y * (y - origin.y); }
+        double at(double x, double ofRow) const { return ofRow + rate.x * (x - origin.x); }
     };
 
     EdgeForm sideOf(mesh::PointIndex from, mesh::PointIndex to) const {
         const bool ascending = from < to;
-        glm::dvec3 a = points_[ascending ? from : to].position(), b = points_[ascending ? to : from].position();
+        const CameraPoint& first = points_[ascending ? from : to];
+        glm::dvec3 a = first.position(), b = points_[ascending ? to : from].position();
         if (frame_.orthographic) a.z = b.z = 1.0;
         EdgeForm form;
-        form.origin = a.z > 0 ? glm::round(glm::dvec2(a) / a.z) : glm::dvec2(0);
+        form.origin = a.z > 0 ? glm::dvec2(first.pixelX, first.pixelY) - sampleCentre(frame_) : glm::dvec2(0);
         const glm::dvec2 p = glm::dvec2(a) - form.origin * a.z, q = glm::dvec2(b) - form.origin * b.z;
         const double sign = ascending ? 1.0 : -1.0;
         form.constant = sign * edgeSide(p, q);
@@ -241,12 +243,15 @@ private:
         const std::array side{sideOf(p[1], p[2]), sideOf(p[2], p[0]), sideOf(p[0], p[1])};
         const glm::dvec3 depths(points_[p[0]].z, points_[p[1]].z, points_[p[2]].z);
         const glm::dvec2 shift = -sampleCentre(frame_);
-        for (int y = std::max(rect.y0, y0); y < std::min(rect.y1, y1); ++y)
+        for (int y = std::max(rect.y0, y0); y < std::min(rect.y1, y1); ++y) {
+            const double atY = y + shift.y;
+            const std::array row{side[0].inRow(atY), side[1].inRow(atY), side[2].inRow(atY)};
             for (int x = rect.x0; x < rect.x1; ++x) {
-                const glm::dvec2 at(x + shift.x, y + shift.y);
-                const glm::dvec3 w(side[0].at(at.x, at.y), side[1].at(at.x, at.y), side[2].at(at.x, at.y));
-                int positive = (w.x > 0 ? 1 : 0) + (w.y > 0 ? 1 : 0) + (w.z > 0 ? 1 : 0);
-                if (w.x == 0 || w.y == 0 || w.z == 0) positive = settledSides(p, at, w);
+                const double atX = x + shift.x;
+                const glm::dvec3 w(side[0].at(atX, row[0]), side[1].at(atX, row[1]), side[2].at(atX, row[2]));
+                const double least = std::min({w.x, w.y, w.z}), most = std::max({w.x, w.y, w.z});
+                if (least < 0 && most > 0) continue;
+                const int positive = least > 0 ? 3 : most < 0 ? 0 : settledSides(p, {atX, atY}, w);
                 const double sum = w.x + w.y + w.z;
                 if ((positive != 0 && positive != 3) || sum == 0) continue;
                 const double depth = glm::dot(w, depths) / sum;
@@ -256,6 +261,7 @@ private:
                 met.push_back({{enters ? depth : depth * (1.0 - coincidence), face.cell, enters},
                                static_cast<std::uint32_t>((y - y0) * frame_.width + x)});
             }
+        }
     }
 
     /// How many of the three sides count as positive where some are exactly zero.
@@ -278,8 +284,11 @@ private:
         double nearest = std::numeric_limits<double>::infinity();
         for (std::size_t face = 0; face < 4; ++face) {
             const Corners p = cornersOf(mesh_.cells[cell], face);
-            const glm::dvec3 w(sideOf(p[1], p[2]).at(at.x, at.y), sideOf(p[2], p[0]).at(at.x, at.y),
-                               sideOf(p[0], p[1]).at(at.x, at.y));
+            const auto side = [&](std::size_t from, std::size_t to) {
+                const EdgeForm form = sideOf(p[from], p[to]);
+                return form.at(at.x, form.inRow(at.y));
+            };
+            const glm::dvec3 w(side(1, 2), side(2, 0), side(0, 1));
             const glm::dvec3 depths(points_[p[0]].z, points_[p[1]].z, points_[p[2]].z);
             const double sum = w.x + w.y + w.z;
             if (sum != 0 && w.x * sum >= 0 && w.y * sum >= 0 && w.z * sum >= 0)

@@ -21,7 +21,7 @@ void TileBins::reset(std::size_t chunks, int tilesX, int tilesY) {
 }
 
 void TileBins::fill(const Survivor* survivors, const std::vector<SurvivorChunk>& chunks, double nearest,
-                    double farthest) {
+                    double farthest, const std::uint32_t* cellPlaces) {
     start_.resize(tiles_ + 1);
     tbb::parallel_for(std::size_t{0}, tiles_, [&](std::size_t tile) {
         std::uint32_t sum = 0;
@@ -39,7 +39,8 @@ void TileBins::fill(const Survivor* survivors, const std::vector<SurvivorChunk>&
         std::uint32_t* places = counts(c);
         for (std::size_t i = chunks[c].begin; i < chunks[c].begin + chunks[c].count; ++i) {
             const Survivor& survivor = survivors[i];
-            const TileEntry entry{orderedKey(survivor.key, nearest, farthest), survivor.cell};
+            const TileEntry entry{cellPlaces ? cellPlaces[survivor.cell] : orderedKey(survivor.key, nearest, farthest),
+                                  survivor.cell};
             for (std::size_t y = survivor.y0; y <= survivor.y1; ++y)
                 for (std::size_t tile = y * tilesX_ + survivor.x0; tile <= y * tilesX_ + survivor.x1; ++tile)
                     entries_[start_[tile] + places[tile]++] = entry;

@@ -23,8 +23,10 @@ public:
     std::uint32_t* counts(std::size_t chunk) { return places_.data() + chunk * tiles_; }
 
     /// Lists every survivor in each tile of its rectangle, as many as were counted, in the order of the chunks: the
-    /// same for any number of threads. Keys become whole numbers that ascend from `nearest` down to `farthest`.
-    void fill(const Survivor* survivors, const std::vector<SurvivorChunk>& chunks, double nearest, double farthest);
+    /// same for any number of threads. Keys become whole numbers that ascend from `nearest` down to `farthest`; with
+    /// `places` those of the cells are taken instead.
+    void fill(const Survivor* survivors, const std::vector<SurvivorChunk>& chunks, double nearest, double farthest,
+              const std::uint32_t* places = nullptr);
 
     /// Sorts each tile's list by key; equal keys keep their order.
     void sort();

@@ -27,17 +27,12 @@ struct CullCounts {
     double nearest = -std::numeric_limits<double>::infinity(), farthest = -nearest;  ///< largest and smallest key
 };
 
-/// Where the keys of a frame come from: the value at `eye` of a linear function per cell, or the cell's place counted
-/// from the front; neither: all keys are 0.
+/// Where the keys of a frame come from: the value at `eye` of a linear function per cell; without, all keys are 0.
 struct KeySource {
     const glm::dvec4* planes = nullptr;
     glm::dvec4 eye{0};
-    const std::uint32_t* places = nullptr;
 
-    double keyOf(mesh::CellIndex cell) const {
-        if (planes) return orderKey(planes[cell], eye);
-        return places ? -static_cast<double>(places[cell]) : 0.0;
-    }
+    double keyOf(mesh::CellIndex cell) const { return planes ? orderKey(planes[cell], eye) : 0.0; }
 };
 
 /// What cullCells reads and where it writes.

@@ -8,6 +8,7 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #ifdef __GLIBC__  // told by any header of the library's
 #include <malloc.h>
@@ -17,6 +18,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 #include <glm/geometric.hpp>
 
@@ -327,13 +329,23 @@ void CpuEngine::makeLists(const Camera& camera, FrameReport& report) {
     tilesX_ = (frame.width + cpuTileSize - 1) / cpuTileSize;
     tilesY_ = (frame.height + cpuTileSize - 1) / cpuTileSize;
     order_ = {};
-    if (orderKeys_) {
-        order_ = orderKeys_->orderOf(CellProjector(mesh_, units_, frame, points_));
-        finish("sort");
+    CullCounts counts;
+    const auto sort = [&] { return orderKeys_->orderOf(CellProjector(mesh_, units_, frame, points_)); };
+    if (orderKeys_ && !orderKeys_->keyed()) {  // part of it is for one thread alone
+        CpuFrameOrder sorted;
+        tbb::parallel_invoke(
+            [&] {
+                sorted = sort();
+                finish("sort");
+            },
+            [&] { counts = cull(); });
+        order_ = std::move(sorted);
+    } else {
+        if (orderKeys_) order_ = sort();
+        counts = cull();
     }
-    const CullCounts counts = cull();
     finish("cull");
-    bins_.fill(survivors_.get(), chunks_, counts.nearest, counts.farthest);
+    bins_.fill(survivors_.get(), chunks_, counts.nearest, counts.farthest, order_.places);
     if (survivorRoom_ * sizeof(Survivor) <= mostRecycled) {
         survivors_.reset();
         survivorRoom_ = 0;

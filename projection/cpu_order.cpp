@@ -12,7 +12,7 @@ CpuFrameOrder CpuOrder::orderOf(const CellProjector& projector) {
     CpuFrameOrder order;
     order.method = sorter_.method();
     order.failingFaces = sorter_.failingFaces();
-    if (!sorter_.keys().empty()) {
+    if (keyed()) {
         order.keys.planes = sorter_.keys().planes().data();
         order.keys.eye = sorter_.keys().eye(projector.frame());
         return order;
@@ -21,7 +21,7 @@ CpuFrameOrder CpuOrder::orderOf(const CellProjector& projector) {
     order.upkeep = sorted.upkeep;
     order.cyclicCells = sorted.cyclicCells;
     order.doubtfulPixels = sorted.doubtfulPixels;
-    order.keys.places = sorted.places.data();
+    order.places = sorted.places.data();
     return order;
 }
 

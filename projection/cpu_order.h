@@ -18,7 +18,9 @@ struct CpuFrameOrder {
     std::string upkeep = "sorted";
     std::uint64_t failingFaces = 0, cyclicCells = 0;
     std::vector<std::uint32_t> doubtfulPixels;
-    KeySource keys;  ///< points to what the CpuOrder keeps, until it is asked again
+    // what these point to the CpuOrder keeps, until it is asked again
+    KeySource keys;
+    const std::uint32_t* places = nullptr;  ///< per cell, counted from the front, instead of keys
 };
 
 /// Keys of cells: linear ones (order_keys.h) where the sorter has them, so that only what survived culling is sorted;
@@ -26,6 +28,9 @@ struct CpuFrameOrder {
 class CpuOrder {
 public:
     CpuOrder(const mesh::ScalarMesh& mesh, OrderMethod method);
+
+    /// Whether an order takes no time: keys are told with what survives culling. Else it may be made meanwhile.
+    bool keyed() const { return !sorter_.keys().empty(); }
 
     CpuFrameOrder orderOf(const CellProjector& projector);
 

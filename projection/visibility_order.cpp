@@ -103,7 +103,7 @@ void sortByRelations(const VisibilityRelations& relations, const mesh::ScalarMes
         for (std::size_t i = range.begin(); i != range.end(); ++i)
             nearer[i] = relations.countBefore(static_cast<mesh::CellIndex>(i));
     });
-    order.frontToBack.resize(count);
+    order.frontToBack.resize(count + 1);  // `release` writes one beyond what it finds
     mesh::CellIndex* const sorted = order.frontToBack.data();
     std::size_t done = 0, found = 0;
     for (mesh::CellIndex cell = 0; cell < count; ++cell)
@@ -111,26 +111,24 @@ void sortByRelations(const VisibilityRelations& relations, const mesh::ScalarMes
     auto drain = [&] {
         while (done < found) {
             if (done + ahead < found) relations.prefetch(sorted[done + ahead]);
-            relations.eachBehind(sorted[done++], [&](mesh::CellIndex cell) {
-                if (nearer[cell] > 0 && --nearer[cell] == 0) sorted[found++] = cell;
-            });
+            found = relations.release(sorted[done++], nearer.data(), sorted, found);
         }
     };
     drain();
+    constexpr std::uint32_t takenOut = 1u << 31;  // no cell is counted off as often
     order.cyclicCells = 0;
-    if (found == count) return;
-
     std::vector<std::pair<double, mesh::CellIndex>> remaining;
-    for (mesh::CellIndex cell = 0; cell < count; ++cell)
+    for (mesh::CellIndex cell = 0; found < count && cell < count; ++cell)
         if (nearer[cell] > 0) remaining.emplace_back(distanceOf(mesh, frame, cell), cell);
     std::sort(remaining.begin(), remaining.end());
     for (const auto& [distance, cell] : remaining) {
         if (nearer[cell] == 0) continue;
         ++order.cyclicCells;
-        nearer[cell] = 0;
+        nearer[cell] = takenOut;
         sorted[found++] = cell;
         drain();
     }
+    order.frontToBack.resize(count);
 }
 
 void invert(const std::vector<mesh::CellIndex>& order, std::vector<std::uint32_t>& places) {

@@ -13,6 +13,7 @@
 
 #include <apps/stopwatch.h>
 #include <mesh/interface_checks.h>
+#include <mesh/procedural_field.h>
 #include <mesh/read_mesh.h>
 #include <mesh/volume_samples.h>
 #include <preint/equidistant_isosurfaces.h>
@@ -158,7 +159,7 @@ void SceneRenderer::readScene(const RenderOptions& options) {
         throw std::runtime_error(fmt::format("{}: {}", options.source, error.what()));
     }
     record_.readMilliseconds = watch.milliseconds();
-    checkInterfaces(options.checkInterfaces);
+    checkInterfaces(options);
 
     record_.scalarMin = scene_.mesh->scalarMin;
     record_.scalarMax = scene_.mesh->scalarMax;
@@ -182,8 +183,11 @@ void SceneRenderer::readScene(const RenderOptions& options) {
     if (!opaque.empty()) scene_.mapSources.push_back(std::make_shared<const projection::OpaqueLayer>(scene_, opaque));
 }
 
-/// Up to so many tetrahedra and boundary faces it takes some 30 ms.
-void SceneRenderer::checkInterfaces(bool always) {
+/// Up to so many tetrahedra and boundary faces it takes some 30 ms; a generated grid is known to fit together.
+void SceneRenderer::checkInterfaces(const RenderOptions& options) {
+    const bool always = options.checkInterfaces;
+    record_.interfacesChecked = mesh::parseProceduralSource(options.source).has_value();
+    if (record_.interfacesChecked && !always) return;
     constexpr std::size_t mostCells = 250'000, mostBoundaryFaces = 100'000;
     const mesh::ScalarMesh& cells = *scene_.mesh;
     if (!always && cells.cells.size() > mostCells) return;

@@ -53,7 +53,7 @@ public:
 
 private:
     void readScene(const RenderOptions& options);
-    void checkInterfaces(bool always);
+    void checkInterfaces(const RenderOptions& options);
     void verify(const projection::Image& image, const projection::View& view);
 
     /// With annotation and background.

@@ -188,9 +188,7 @@ std::optional<int> partsAround(const glm::dvec3& x, const glm::dvec3& direction,
 /// Cells of parts that lie inside other parts, whose faces cross nothing.
 void addEnclosed(const BoundaryFaces& faces, const TriangleTree& tree, const std::vector<glm::dvec3>& positions,
                  const std::vector<Tetrahedron>& cells, std::vector<std::uint8_t>& marked) {
-    std::vector<std::uint32_t> parts = oneFaceOfEachPart(faces, positions.size());
-    constexpr std::size_t mostParts = 10000;
-    parts.resize(std::min(parts.size(), mostParts));
+    const std::vector<std::uint32_t> parts = oneFaceOfEachPart(faces, positions.size());
     if (parts.size() < 2) {
         return;
     }

@@ -35,7 +35,7 @@ ReadResult readMesh(const std::string& source, const ReadOptions& options = {});
 struct ScalarSelection {
     ScalarMesh mesh;
     std::string fieldName;             ///< the field taken, with component: "Velocity (magnitude)"
-    std::uint64_t nonFiniteCells = 0;  ///< cells left out because a scalar of theirs is NaN or infinite
+    std::uint64_t nonFiniteCells = 0;  ///< cells left out because a scalar of theirs is NaN, infinite or beyond 1e280
 };
 
 /// Takes one scalar of `mesh`: `name` alone (vectors by magnitude), "name:0" or "name:x" (a component), or ""

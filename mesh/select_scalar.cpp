@@ -162,13 +162,20 @@ std::string fieldTitle(const Field& field, int component) {
                                  : fmt::format("{} ({})", field.name, component);
 }
 
+/// Values of up to 1e280 are drawn: the integrals need products with lengths and differences. What is beyond stands
+/// for no value (the largest double, say), as NaN does. Scaling overflows just there.
+double finiteIfDrawable(double value) {
+    constexpr double scale = 1e28;
+    return value * scale;
+}
+
 bool hasFiniteScalars(const ScalarMesh& mesh, std::size_t cell) {
     if (mesh.association == Association::Cell) {
-        return std::isfinite(mesh.scalars[cell]);
+        return std::isfinite(finiteIfDrawable(mesh.scalars[cell]));
     }
     const Tetrahedron& t = mesh.cells[cell];
-    return std::isfinite(mesh.scalars[t[0]]) && std::isfinite(mesh.scalars[t[1]]) &&
-           std::isfinite(mesh.scalars[t[2]]) && std::isfinite(mesh.scalars[t[3]]);
+    return std::all_of(t.begin(), t.end(),
+                       [&](PointIndex p) { return std::isfinite(finiteIfDrawable(mesh.scalars[p])); });
 }
 
 bool areAllFinite(const std::vector<double>& values) {
@@ -177,7 +184,7 @@ bool areAllFinite(const std::vector<double>& values) {
         // 0 for every finite value, else NaN: without a branch this is many values at a time.
         double sum = 0.0;
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            sum += values[i] * 0.0;
+            sum += finiteIfDrawable(values[i]) * 0.0;
         }
         if (sum != 0.0) {
             finite.store(false, std::memory_order_relaxed);
@@ -186,7 +193,7 @@ bool areAllFinite(const std::vector<double>& values) {
     return finite;
 }
 
-/// Leaves out cells with a NaN or infinite scalar; the order of the others stays. \returns how many.
+/// Leaves out cells with a scalar that is NaN, infinite or too large; the order of the others stays. \returns how many.
 std::uint64_t dropNonFiniteCells(ScalarMesh& mesh, MeshReport& report) {
     if (areAllFinite(mesh.scalars)) {
         return 0;
@@ -259,8 +266,9 @@ ScalarSelection selectScalar(TetMesh&& mesh, const std::string& name, MeshReport
     }
     selection.nonFiniteCells = dropNonFiniteCells(selection.mesh, report);
     if (selection.mesh.cells.empty()) {
-        throw std::runtime_error(fmt::format(
-            "field '{}' is NaN or infinite in every cell; choose another with --scalar", selection.fieldName));
+        throw std::runtime_error(
+            fmt::format("field '{}' is NaN, infinite or beyond 1e280 in every cell; choose another with --scalar",
+                        selection.fieldName));
     }
     findRangeAndBounds(selection.mesh, selection.nonFiniteCells == 0);
     return selection;

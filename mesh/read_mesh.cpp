@@ -31,6 +31,12 @@ struct OtherKind {
 const std::array otherKinds{
     OtherKind{{".stl", ".off", ".ply", ".obj"}, "is a surface; make tetrahedra of it with `tetralux mesh`"},
     OtherKind{{".csv", ".xyz"}, "holds points; make tetrahedra of them with `tetralux mesh`"},
+    OtherKind{{".htg"},
+              "is a hyper tree grid, which is not read; make a grid of its leaves in ParaView (Hyper Tree Grid "
+              "To Unstructured Grid) and save that as .vtu"},
+    OtherKind{{".vtt", ".pvtt"},
+              "is a table, which has no cells; save its points as .csv and give that to `tetralux "
+              "mesh`"},
     OtherKind{{".sol"}, "holds the values of a MEDIT mesh; give the .mesh beside it"},
     OtherKind{{".face", ".edge", ".neigh", ".poly", ".smesh"}, "is no mesh by itself; give TetGen's .ele or .node"},
     OtherKind{{".hdf", ".hdf5", ".h5", ".xdmf", ".xmf"},

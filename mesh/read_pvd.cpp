@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+/// \file
+/// Files that only name others, which are read one by one: VTK's reader of .pvtu wants every field in every piece, and
+/// writers leave them out of empty ones.
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -20,7 +23,7 @@ namespace tetralux::mesh {
 namespace {
 
 bool acceptsPvd(const std::string& source) {
-    return hasExtension(source, {".pvd"});
+    return hasExtension(source, {".pvd", ".pvtu"});
 }
 
 struct Part {
@@ -28,18 +31,22 @@ struct Part {
     std::string file;
 };
 
-/// The entries of a ParaView collection: every file with its time.
+/// The entries of a ParaView collection, every file with its time, or the pieces of a mesh in parallel.
 std::vector<Part> readCollection(const std::string& source) {
     captureVtkMessages();
+    const bool pieces = hasExtension(source, {".pvtu"});
     const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(source.c_str()));
-    vtkXMLDataElement* collection = root != nullptr ? root->FindNestedElementWithName("Collection") : nullptr;
+    vtkXMLDataElement* collection =
+        root != nullptr ? root->FindNestedElementWithName(pieces ? "PUnstructuredGrid" : "Collection") : nullptr;
     if (collection == nullptr) {
-        throw std::runtime_error("is no ParaView collection (<VTKFile type=\"Collection\">); write the file again");
+        throw std::runtime_error(fmt::format("is no {} (<VTKFile type=\"{}\">); write the file again",
+                                             pieces ? "mesh in pieces" : "ParaView collection",
+                                             pieces ? "PUnstructuredGrid" : "Collection"));
     }
     std::vector<Part> parts;
     for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
         vtkXMLDataElement* entry = collection->GetNestedElement(i);
-        const char* file = entry->GetAttribute("file");
+        const char* file = entry->GetAttribute(pieces ? "Source" : "file");
         double time = 0.0;
         entry->GetScalarAttribute("timestep", time);
         if (file != nullptr && std::isfinite(time)) {
@@ -47,7 +54,7 @@ std::vector<Part> readCollection(const std::string& source) {
         }
     }
     if (parts.empty()) {
-        throw std::runtime_error("names no file; add a DataSet element for each");
+        throw std::runtime_error(fmt::format("names no file; add a {} element for each", pieces ? "Piece" : "DataSet"));
     }
     return parts;
 }
@@ -67,14 +74,16 @@ CellSoup readCollectionAt(const std::string& source, std::optional<double> time)
             std::error_code failed;
             if (!std::filesystem::is_regular_file(file, failed)) {
                 throw std::runtime_error(
-                    fmt::format("names {}, which is not there; put it beside the collection", part.file));
+                    fmt::format("names {}, which is not there; put it there, or name the file that is", part.file));
             }
             vtkNew<vtkXMLGenericDataObjectReader> reader;
             reader->SetFileName(file.c_str());
             appendSoup(soup, soupFromReader(*reader, std::nullopt));
         }
     }
-    soup.times = steps;
+    if (!hasExtension(source, {".pvtu"})) {
+        soup.times = steps;
+    }
     return soup;
 }
 
@@ -85,6 +94,6 @@ CellSoup readPvd(const std::string& source, const ReadOptions& options) {
 
 }  // namespace
 
-const MeshFormat pvdFormat{"ParaView series", ".pvd", acceptsPvd, readPvd};
+const MeshFormat pvdFormat{"ParaView series and pieces", ".pvd .pvtu", acceptsPvd, readPvd};
 
 }  // namespace tetralux::mesh

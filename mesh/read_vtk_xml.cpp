@@ -15,7 +15,7 @@ namespace tetralux::mesh {
 namespace {
 
 bool acceptsVtkXml(const std::string& source) {
-    return hasExtension(source, {".vtu", ".pvtu", ".vti", ".pvti", ".vtr", ".pvtr", ".vts", ".pvts", ".vtm", ".vtp",
+    return hasExtension(source, {".vtu", ".vti", ".pvti", ".vtr", ".pvtr", ".vts", ".pvts", ".vtm", ".vtp",
                                  ".pvtp", ".vtpd", ".vtpc", ".vth", ".vthb"});
 }
 
@@ -51,6 +51,6 @@ CellSoup readVtkXml(const std::string& source, const ReadOptions& options) {
 
 }  // namespace
 
-const MeshFormat vtkXmlFormat{"VTK XML", ".vtu .pvtu .vti .vtr .vts .vtm .vtpc .vth", acceptsVtkXml, readVtkXml};
+const MeshFormat vtkXmlFormat{"VTK XML", ".vtu .vti .vtr .vts .vtm .vtpc .vth", acceptsVtkXml, readVtkXml};
 
 }  // namespace tetralux::mesh

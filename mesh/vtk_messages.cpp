@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <vtkAlgorithm.h>
@@ -26,7 +27,10 @@ public:
 
     void DisplayText(const char*) override {}
     void DisplayErrorText(const char* text) override {
-        if (firstError.empty() && text != nullptr) {
+        // VTK's own writer leaves the points out of a piece without any.
+        constexpr std::string_view emptyPiece = "No Points element available in first piece";
+        if (firstError.empty() && text != nullptr &&
+            std::string_view(text).find(emptyPiece) == std::string_view::npos) {
             firstError = text;
         }
     }
@@ -60,6 +64,18 @@ std::string plainMessage(const std::string& text) {
     return plain;
 }
 
+/// What would mend what VTK complains of.
+const char* remedyFor(std::string_view message) {
+    const auto says = [&](std::string_view words) { return message.find(words) != std::string_view::npos; };
+    if (says("nsupported") || says("Unknown data type")) {
+        return "the file may be sound: save it with another encoding or type of values";
+    }
+    if (says("File for piece") || says("ould not open file") || says("cannot read data from file")) {
+        return "a file that it names is missing or damaged: put it in its place";
+    }
+    return "it is probably truncated or damaged: write it again";
+}
+
 }  // namespace
 
 void captureVtkMessages() {
@@ -69,8 +85,8 @@ void captureVtkMessages() {
 void throwOnVtkError() {
     const auto* window = SilentWindow::SafeDownCast(vtkOutputWindow::GetInstance());
     if (window != nullptr && !window->firstError.empty()) {
-        throw std::runtime_error(fmt::format("cannot be read ({}); it is probably truncated or damaged: write it again",
-                                             plainMessage(window->firstError)));
+        const std::string message = plainMessage(window->firstError);
+        throw std::runtime_error(fmt::format("cannot be read ({}); {}", message, remedyFor(message)));
     }
 }
 

@@ -36,8 +36,15 @@ void withValues(vtkDataArray* array, const Use& use) {
     const std::size_t count = static_cast<std::size_t>(array->GetNumberOfValues());
     switch (array->GetDataType()) {
         vtkTemplateMacro(use(static_cast<const VTK_TT*>(array->GetVoidPointer(0)), count));
-        default:
-            throw std::runtime_error(fmt::format("array '{}' is of a type that has no numbers", array->GetName()));
+        default: {  // bits
+            std::vector<double> values(count);
+            for (std::size_t i = 0; i < count; ++i) {
+                const auto components = static_cast<std::size_t>(array->GetNumberOfComponents());
+                values[i] =
+                    array->GetComponent(static_cast<vtkIdType>(i / components), static_cast<int>(i % components));
+            }
+            use(values.data(), count);
+        }
     }
 }
 

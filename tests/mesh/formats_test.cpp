@@ -76,6 +76,46 @@ TEST(Formats, VtkHdf) {
     }
 }
 
+/// As VTK writes a part without cells: neither points nor fields, which it then misses itself.
+TEST(Formats, EmptyPiecesAreNoFault) {
+    const TemporaryFolder folder;
+    folder.write("a.vtu", smallVtu());
+    const std::string empty =
+        folder.write("empty.vtu",
+                     "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"><UnstructuredGrid><Piece NumberOfPoints=\"0\" "
+                     "NumberOfCells=\"0\"><PointData></PointData><CellData></CellData><Points></Points><Cells>"
+                     "<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\"></DataArray>"
+                     "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\"></DataArray>"
+                     "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\"></DataArray></Cells></Piece>"
+                     "</UnstructuredGrid></VTKFile>");
+    const auto pieces = [&](const std::string& first, const std::string& second) {
+        return folder.write("a.pvtu", fmt::format("<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid>"
+                                                  "<PPointData><PDataArray type=\"Float64\" Name=\"s\"/></PPointData>"
+                                                  "<Piece Source=\"{}\"/><Piece Source=\"{}\"/></PUnstructuredGrid>"
+                                                  "</VTKFile>",
+                                                  first, second));
+    };
+    for (const std::string& source : {pieces("a.vtu", "empty.vtu"), pieces("empty.vtu", "a.vtu")}) {
+        const ReadResult result = readMesh(source);
+        EXPECT_EQ(result.mesh.cells.size(), 2u);
+        EXPECT_LT(largestError(result.mesh, smallMeshField), 1e-6);
+        EXPECT_TRUE(result.times.empty());
+    }
+    expectError([&] { readMesh(empty); }, "empty.vtu: holds no cells");
+    expectError([&] { readMesh(pieces("a.vtu", "gone.vtu")); }, "a.pvtu: names gone.vtu, which is not there");
+    expectError([&] { readMesh(folder.write("b.pvtu", smallVtu())); }, "b.pvtu: is no mesh in pieces");
+}
+
+TEST(Formats, BitsAreNumbers) {
+    const TemporaryFolder folder;
+    const std::string path =
+        folder.write("bits.vtk",
+                     "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 "
+                     "0 0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\nPOINT_DATA 4\nSCALARS inside bit 1\n"
+                     "LOOKUP_TABLE default\n0 1 1 0\n");
+    EXPECT_EQ(readMesh(path).mesh.fields.at(0).values, (std::vector<double>{0.0, 1.0, 1.0, 0.0}));
+}
+
 /// A cube of two cells along each edge, one of which is refined once more: it is hidden under its eight.
 TEST(Formats, RefinedCellsOfAmrAreNotDrawnTwice) {
     const TemporaryFolder folder;
@@ -110,6 +150,9 @@ TEST(Formats, WhatIsNotReadSaysWhatToDo) {
     };
     expectError(reading("a.stl", "solid"), "a.stl: is a surface; make tetrahedra of it with `tetralux mesh`");
     expectError(reading("a.csv", "x,y,z"), "a.csv: holds points; make tetrahedra");
+    expectError(reading("a.htg", "<VTKFile"),
+                "a.htg: is a hyper tree grid, which is not read; make a grid of its leaves");
+    expectError(reading("a.vtt", "<VTKFile"), "a.vtt: is a table, which has no cells");
     expectError(reading("a.sol", "x"), "a.sol: holds the values of a MEDIT mesh; give the .mesh");
     expectError(reading("a.h5", "x"), "a.h5: is HDF5");
     expectError(reading("a.vtkhdf", "x"), "a.vtkhdf: does not begin as a VTKHDF file");

@@ -6,8 +6,6 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
-#include <map>
-#include <mutex>
 #include <stdexcept>
 #include <string_view>
 
@@ -25,7 +23,6 @@ struct EglFunctions {
     TETRALUX_EGL_FUNCTION(GetProcAddress);
     TETRALUX_EGL_FUNCTION(QueryString);
     TETRALUX_EGL_FUNCTION(Initialize);
-    TETRALUX_EGL_FUNCTION(Terminate);
     TETRALUX_EGL_FUNCTION(BindAPI);
     TETRALUX_EGL_FUNCTION(CreateContext);
     TETRALUX_EGL_FUNCTION(DestroyContext);
@@ -92,40 +89,25 @@ std::vector<DisplayCandidate> displayCandidates() {
     return candidates;
 }
 
-// An initialized display. EGL hands out one display per platform and device, so eglTerminate must wait for the last
-// context on it.
+// An initialized display. EGL hands out one per platform and device to the whole process and does not count who
+// initialized it, so it is never terminated: that would end the contexts of others, and Mesa loses a little memory each
+// time its driver is unloaded.
 class Display {
 public:
     explicit Display(const DisplayCandidate& candidate)
-        : display_(egl().getPlatformDisplay(candidate.platform, candidate.native, nullptr)) {
-        const std::lock_guard lock(mutex());
-        if (display_ == EGL_NO_DISPLAY || egl().Initialize(display_, nullptr, nullptr) != EGL_TRUE) {
+        : handle_(egl().getPlatformDisplay(candidate.platform, candidate.native, nullptr)) {
+        if (handle_ == EGL_NO_DISPLAY || egl().Initialize(handle_, nullptr, nullptr) != EGL_TRUE) {
             throw std::runtime_error("cannot be initialized");
         }
-        ++users()[display_];
     }
-    ~Display() {
-        const std::lock_guard lock(mutex());
-        if (--users()[display_] == 0) egl().Terminate(display_);
-    }
-    Display(const Display&) = delete;
-    Display& operator=(const Display&) = delete;
 
-    EGLDisplay handle() const { return display_; }
+    EGLDisplay handle() const { return handle_; }
     bool has(std::string_view extension) const {
-        return listHas(egl().QueryString(display_, EGL_EXTENSIONS), extension);
+        return listHas(egl().QueryString(handle_, EGL_EXTENSIONS), extension);
     }
 
 private:
-    static std::mutex& mutex() {
-        static std::mutex instance;
-        return instance;
-    }
-    static std::map<EGLDisplay, int>& users() {
-        static std::map<EGLDisplay, int> instance;
-        return instance;
-    }
-    EGLDisplay display_;
+    EGLDisplay handle_;
 };
 
 class EglContext final : public GlContext {

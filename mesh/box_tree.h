@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -12,7 +13,7 @@ namespace tetralux::mesh {
 
 /// Items in a tree of bounding boxes: those near a point, in a box, along a line. What the items are and how the tree
 /// is built is the derived class's matter; no node may be deeper than 64. Visits come in an order that depends on the
-/// items alone.
+/// items alone, and end with one that returns false (if it returns anything).
 class BoxTree {
 public:
     /// Calls `visit(item)` for every item whose bounding box comes within `reach` of `x`, and for some others of the
@@ -75,6 +76,16 @@ protected:
     std::vector<std::uint32_t> order_;
 
 private:
+    template <class Visit>
+    static bool goesOn(const Visit& visit, std::uint32_t item) {
+        if constexpr (std::is_void_v<decltype(visit(item))>) {
+            visit(item);
+            return true;
+        } else {
+            return visit(item);
+        }
+    }
+
     template <class Meets, class Visit>
     void walk(const Meets& meets, const Visit& visit) const {
         std::array<std::uint32_t, 128> open;
@@ -89,7 +100,9 @@ private:
             }
             if (node.count > 0) {
                 for (std::uint32_t i = 0; i < node.count; ++i) {
-                    visit(order_[node.first + i]);
+                    if (!goesOn(visit, order_[node.first + i])) {
+                        return;
+                    }
                 }
             } else {
                 open[count++] = node.first;

@@ -2,9 +2,11 @@
 #include <mesh/grid_soup.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
 
 #include <mesh/cell_types.h>
 
@@ -45,6 +47,33 @@ void addGridCells(CellSoup& soup, const std::array<std::size_t, 3>& points, std:
     });
 }
 
+bool GridFrame::mirrors() const {
+    return glm::dot(glm::cross(steps[0], steps[1]), steps[2]) < 0.0;
+}
+
+void mirrorVoxels(CellSoup& soup) {
+    for (std::size_t i = 0; i + 1 < soup.connectivity.size(); i += 2) {
+        std::swap(soup.connectivity[i], soup.connectivity[i + 1]);
+    }
+}
+
+void placeGrid(CellSoup& soup, const std::array<std::size_t, 3>& points, const GridFrame& frame) {
+    soup.points.resize(points[0] * points[1] * points[2]);
+    tbb::parallel_for(std::size_t{0}, points[2], [&](std::size_t k) {
+        glm::dvec3* out = soup.points.data() + points[0] * points[1] * k;
+        for (std::size_t j = 0; j < points[1]; ++j) {
+            const glm::dvec3 row =
+                frame.origin + static_cast<double>(j) * frame.steps[1] + static_cast<double>(k) * frame.steps[2];
+            for (std::size_t i = 0; i < points[0]; ++i) {
+                *out++ = row + static_cast<double>(i) * frame.steps[0];
+            }
+        }
+    });
+    if (frame.mirrors()) {
+        mirrorVoxels(soup);
+    }
+}
+
 CellSoup gridSoup(const std::array<std::size_t, 3>& points, const std::string& source) {
     CellSoup soup;
     try {
@@ -52,14 +81,7 @@ CellSoup gridSoup(const std::array<std::size_t, 3>& points, const std::string& s
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(fmt::format("{}: {}", source, error.what()));
     }
-    soup.points.reserve(points[0] * points[1] * points[2]);
-    for (std::size_t k = 0; k < points[2]; ++k) {
-        for (std::size_t j = 0; j < points[1]; ++j) {
-            for (std::size_t i = 0; i < points[0]; ++i) {
-                soup.points.emplace_back(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
-            }
-        }
-    }
+    placeGrid(soup, points, {});
     return soup;
 }
 

@@ -111,16 +111,19 @@ bool crosses(const BoundaryFaces& faces, std::size_t i, std::size_t other) {
 }
 
 /// Marks boundary faces of which one lies against the other (adjacency has joined those with the same points), and
-/// those of which one passes through the other.
+/// those of which one passes through the other. A face that comes near a thousand others is not compared with all of
+/// them, or a mesh of nothing but noise would take hours: where it is large and they are small, they find it.
 void markPairs(const BoundaryFaces& faces, const TriangleTree& tree, std::vector<std::uint8_t>& gaping,
                std::vector<std::uint8_t>& overlapping) {
     tbb::parallel_for(std::size_t{0}, faces.cells.size(), [&](std::size_t i) {
+        constexpr std::size_t mostNear = 1024;
         const Corners& face = faces.triangles[i];
         const glm::dvec3 reach(faces.reaches[i]);
+        std::size_t seen = 0;
         tree.forEachInBox(glm::min(glm::min(face[0], face[1]), face[2]) - reach,
                           glm::max(glm::max(face[0], face[1]), face[2]) + reach, [&](std::uint32_t other) {
                               if (other == i) {
-                                  return;
+                                  return true;
                               }
                               if (liesAgainst(faces, i, other)) {
                                   setMark(gaping[i]);
@@ -130,6 +133,7 @@ void markPairs(const BoundaryFaces& faces, const TriangleTree& tree, std::vector
                                   setMark(overlapping[i]);
                                   setMark(overlapping[other]);
                               }
+                              return ++seen < mostNear;
                           });
     });
 }

@@ -5,6 +5,7 @@
 /// bytes.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,6 +25,11 @@ CellSoup parseMeditBinary(std::string_view bytes, const std::string& source);
 /// Adds the solutions of a .sol text at the vertices of `soup` as point fields "solution", or "solution 1", … for
 /// several.
 void parseMeditSolution(std::string_view bytes, const std::string& source, CellSoup& soup);
+
+/// NRRD image volumes with their places in space: raw, gzip, ascii and hex, either byte order. The values stand behind
+/// the header, or are what `readData(file)` returns of the file that the header names.
+CellSoup parseNrrd(std::string_view bytes, const std::string& source,
+                   const std::function<std::string(const std::string& file)>& readData);
 
 /// TetGen .node and .ele; attributes become fields "attribute" or "attribute 1", …, regions the cell field "region".
 CellSoup parseTetgen(std::string_view nodes, const std::string& nodeSource, std::string_view elements,

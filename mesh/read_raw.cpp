@@ -4,8 +4,6 @@
 /// (`bonsai_256x256x256_uint8.raw`) or are put behind it (`data.raw:256x256x256:uint8`); without a type the size of
 /// the file says how many bytes a value has.
 #include <array>
-#include <bit>
-#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <regex>
@@ -17,33 +15,10 @@
 #include <mesh/grid_soup.h>
 #include <mesh/mesh_format.h>
 #include <mesh/text_scanner.h>
+#include <mesh/voxel_types.h>
 
 namespace tetralux::mesh {
 namespace {
-
-template <class T>
-double valueAt(const char* bytes) {
-    std::array<char, sizeof(T)> raw;
-    std::memcpy(raw.data(), bytes, sizeof(T));
-    if (std::endian::native == std::endian::big) {
-        std::reverse(raw.begin(), raw.end());
-    }
-    return static_cast<double>(std::bit_cast<T>(raw));
-}
-
-struct ValueType {
-    const char* names;  ///< between bars
-    std::size_t size;
-    double (*at)(const char* bytes);
-};
-constexpr std::array<ValueType, 8> valueTypes{{{"|u8|uint8|uchar|", 1, valueAt<std::uint8_t>},
-                                               {"|u16|uint16|ushort|", 2, valueAt<std::uint16_t>},
-                                               {"|f32|float32|float|", 4, valueAt<float>},
-                                               {"|f64|float64|double|", 8, valueAt<double>},
-                                               {"|i8|int8|char|", 1, valueAt<std::int8_t>},
-                                               {"|i16|int16|short|", 2, valueAt<std::int16_t>},
-                                               {"|u32|uint32|uint|", 4, valueAt<std::uint32_t>},
-                                               {"|i32|int32|int|", 4, valueAt<std::int32_t>}}};
 
 struct RawSource {
     std::string path;
@@ -86,11 +61,10 @@ std::optional<RawSource> parseRawSource(const std::string& source) {
     return raw;
 }
 
-const ValueType& findType(const RawSource& raw, std::size_t bytes) {
+const VoxelType& findType(const RawSource& raw, std::size_t bytes) {
     const std::size_t values = raw.size[0] * raw.size[1] * raw.size[2];
-    for (const ValueType& type : valueTypes) {
-        const bool named = std::string_view(type.names).find("|" + raw.type + "|") != std::string_view::npos;
-        if (raw.type.empty() ? type.size * values == bytes : named) {
+    for (const VoxelType& type : voxelTypes()) {
+        if (raw.type.empty() ? type.size * values == bytes : type.isCalled(raw.type)) {
             if (type.size * values == bytes) {
                 return type;
             }
@@ -117,13 +91,13 @@ CellSoup readRaw(const std::string& source, const ReadOptions&) {
             "{}: bare values need a size; put it behind the name as in {}:64x64x64:uint8", raw.path, raw.path));
     }
     const std::string bytes = readWholeFile(raw.path);
-    const ValueType& type = findType(raw, bytes.size());
+    const VoxelType& type = findType(raw, bytes.size());
     CellSoup soup = gridSoup(raw.size, raw.path);
     Field field;
     field.name = "value";
     field.values.resize(soup.points.size());
     for (std::size_t i = 0; i < field.values.size(); ++i) {
-        field.values[i] = type.at(bytes.data() + i * type.size);
+        field.values[i] = type.at(bytes.data() + i * type.size, false);
     }
     soup.fields.push_back(std::move(field));
     return soup;

@@ -14,6 +14,7 @@
 #include <vtkDataSetAttributes.h>
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
+#include <vtkMatrix4x4.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -241,6 +242,9 @@ CellSoup soupFromDataSet(vtkDataSet* data) {
         image->GetDimensions(dimensions);
         takeGridCells(dimensions, cell_type::voxel, soup);
         takeGridPoints(data, soup);
+        if (image->GetIndexToPhysicalMatrix()->Determinant() < 0.0) {
+            mirrorVoxels(soup);
+        }
     } else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(data)) {
         rectilinear->GetDimensions(dimensions);
         takeGridCells(dimensions, cell_type::voxel, soup);

@@ -2,6 +2,7 @@
 #include <mesh/mesh_statistics.h>
 
 #include <limits>
+#include <random>
 
 #include <mesh/procedural_field.h>
 
@@ -93,6 +94,23 @@ TEST(MeshStatistics, CellsThatOverlapAreFound) {
     folded.fields.clear();
     EXPECT_EQ(meshStatistics(folded).defects.at(Defect::OverlappingCell).firstOffenders,
               (std::vector<std::uint64_t>{0, 1}));
+}
+
+/// Every cell goes through most others, so that not all pairs are looked at: each cell is named all the same.
+TEST(MeshStatistics, NoiseOverlapsEverywhere) {
+    TetMesh noise;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit;
+    for (PointIndex cell = 0; cell < 2000; ++cell) {
+        for (int corner = 0; corner < 4; ++corner) {
+            noise.positions.emplace_back(unit(random), unit(random), unit(random));
+        }
+        const glm::dvec3* const x = noise.positions.data() + 4 * cell;
+        const bool positive = sixVolumes(x[0], x[1], x[2], x[3]) > 0.0;
+        noise.cells.push_back(
+            {4 * cell, 4 * cell + 1, 4 * cell + (positive ? 2u : 3u), 4 * cell + (positive ? 3u : 2u)});
+    }
+    EXPECT_GT(meshStatistics(noise).defects.at(Defect::OverlappingCell).count, 1990u);
 }
 
 TEST(MeshStatistics, CellsThatTouchDoNotOverlap) {

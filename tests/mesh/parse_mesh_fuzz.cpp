@@ -45,7 +45,7 @@ CellSoup readAppended(std::string_view bytes) {
 }
 
 CellSoup parse(std::uint8_t kind, std::string_view bytes) {
-    switch (kind % 5) {
+    switch (kind % 6) {
         case 0:
             return parseGmsh(bytes, "f.msh", 0.5);
         case 1:
@@ -54,8 +54,10 @@ CellSoup parse(std::uint8_t kind, std::string_view bytes) {
             return parseMeditBinary(bytes, "f.meshb");
         case 3:
             return parseTwo(bytes);
-        default:
+        case 4:
             return readAppended(bytes);
+        default:
+            return parseNrrd(bytes, "f.nrrd", [](const std::string&) { return std::string(64, '1'); });
     }
 }
 

@@ -210,10 +210,10 @@ void addBenchOptions(CLI::App& command, BenchOptions& options) {
                   "on, off: leave out cells that the transfer function hides (default on)", "on,off");
     addList<bool>(command, "--early-termination", options.earlyTermination, parseSwitch,
                   "on, off: leave out what lies behind opaque pixels (default on)", "on,off");
-    addList<std::string>(
-        command, "--gl-path", options.glPaths, parseGlPathName,
-        fmt::format("who sets cells up for OpenGL: {} (default auto)", fmt::join(projection::glPathNames(), ", ")),
-        "PATH,…");
+    addList<std::string>(command, "--gl-path", options.glPaths, parseGlPathName,
+                         fmt::format("who sets cells up for OpenGL and draws them: {} (default auto)",
+                                     fmt::join(projection::glPathNames(), ", ")),
+                         "PATH,…");
     addList<int>(command, "--threads", options.threads, parseCount, "threads of our engines (default all)", "N,…");
     command.add_option("--frames", options.plan.frames, "timed frames, camera moved before each")
         ->check(CLI::Range(1, 10000))

@@ -46,7 +46,7 @@ struct BenchRow {
     std::map<std::string, std::uint64_t> cellsSkipped;             ///< by reason, first frame
     std::uint64_t tileEntries = 0, tileEntriesSaved = 0;           ///< as FrameReport has them
     std::string orderMethod;
-    std::string dataPath;              ///< gl: "stream" or "resident"
+    std::string dataPath;              ///< gl: "stream", "resident" or "tiles"
     std::uint64_t bytesUploaded = 0;   ///< gl: for cells and order, first frame
     std::uint64_t pixelsRepaired = 0;  ///< over all frames
 

@@ -76,7 +76,7 @@ void addMachineOptions(CLI::App& command, RenderOptions& options) {
                        fmt::format("what draws: auto, {}", fmt::join(projection::engineNames(), ", ")));
     command.add_option("--context", options.engine.context, "OpenGL context: auto, egl, osmesa");
     command.add_option("--gl-path", options.engine.glPath,
-                       fmt::format("who sets cells up for OpenGL, the processor or the GPU: {}",
+                       fmt::format("who sets cells up for OpenGL, the processor or the GPU, and who draws them: {}",
                                    fmt::join(projection::glPathNames(), ", ")));
     addParsed(command, "--order", options.settings.order, parseOrder,
               "how cells are put in order, for measuring: auto (certain), graph (certain, no keys), centroid (wrong in "

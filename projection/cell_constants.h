@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
 /// Numbers of the texts that C++ and shaders share (projected_cell.glsl, cell_outline.glsl, covered_pixels.glsl);
-/// shaders get them as definitions of these names (gl_resident_programs.cpp).
+/// shaders get them as definitions of these names (gl_compute.cpp).
 #pragma once
 
 namespace tetralux::projection {
@@ -25,5 +25,9 @@ inline constexpr double sharpestCorner = 2e-3;
 /// Outlines that reach farther than this beyond the image (pixels) are drawn as rectangles instead: rasterizers compute
 /// in fixed point.
 inline constexpr double farthestCorner = 4096.0;
+
+/// Below this transmittance a pixel is finished, in every engine that composes front to back: colours are at most 1, so
+/// that is also the largest error of a channel.
+inline constexpr float leastTransmittance = 1e-6f;
 
 }  // namespace tetralux::projection

@@ -14,6 +14,7 @@
 #include <mesh/tet_mesh.h>
 #include <projection/camera.h>
 #include <projection/camera_points.h>
+#include <projection/cell_constants.h>
 #include <projection/cell_setup.h>
 #include <projection/cpu_transfer.h>
 #include <projection/image.h>
@@ -113,9 +114,6 @@ struct TileResult {
     bool retired = false;  ///< opaque before its list ended
     std::vector<std::uint32_t> doubtfulPixels;
 };
-
-/// Below this transmittance a pixel is finished: colours are at most 1, so that is also the largest error of a channel.
-inline constexpr float leastTransmittance = 1e-6f;
 
 /// Draws the tile whose first pixel is (x0, y0) into `image`.
 void drawTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,

@@ -41,7 +41,7 @@ struct FrameReport {
     /// are (gl, whose only proof is the order) says so by `wrongUnknown`.
     std::uint64_t pixelsWrong = 0;
     bool wrongUnknown = false;
-    std::string dataPath;  ///< gl: "stream" or "resident" (gl_path.h), and why
+    std::string dataPath;  ///< gl: "stream", "resident" or "tiles" (gl_path.h), and why
     std::string dataPathReason;
     std::uint64_t bytesUploaded = 0;        ///< gl: what the frame sent to the renderer for its cells and their order
     std::shared_ptr<const PixelMaps> maps;  ///< what the frame was drawn with, where the scene has any
@@ -62,7 +62,7 @@ public:
 struct EngineOptions {
     std::string engine = "auto";   ///< a registered name or "auto"
     std::string context = "auto";  ///< "auto", "egl", "osmesa": only GL engines read it
-    std::string glPath = "auto";   ///< "auto", "stream", "resident" (gl_path.h): likewise
+    std::string glPath = "auto";   ///< "auto" or another of glPathNames() (gl_path.h): likewise
 };
 
 std::vector<std::string> engineNames();

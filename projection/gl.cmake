@@ -25,6 +25,7 @@ target_sources(tetralux_projection PRIVATE
   gl_cell_stream.cpp
   gl_compute.cpp
   gl_context.cpp
+  gl_draw_trial.cpp
   gl_engine.cpp
   gl_frame_target.cpp
   gl_functions.cpp
@@ -35,6 +36,7 @@ target_sources(tetralux_projection PRIVATE
   gl_resident_cells.cpp
   gl_resolve.cpp
   gl_sampler_probe.cpp
+  gl_tiles.cpp
   osmesa_context.cpp
   shared_library.cpp
   transfer_support.cpp
@@ -64,6 +66,7 @@ tetralux_embed_shaders(tetralux_projection FILES
   projection/order_position.glsl
   projection/projected_cell.glsl
   projection/gl_cell.frag
+  projection/gl_cell_pixel.glsl
   projection/gl_cell.vert
   projection/gl_cell_record.glsl
   projection/gl_full_screen.vert
@@ -73,6 +76,11 @@ tetralux_embed_shaders(tetralux_projection FILES
   projection/gl_sampler_probe.frag
   projection/gl_segment.glsl
   projection/gl_table.glsl
+  projection/gl_tile_bin.comp
+  projection/gl_tile_draw.comp
+  projection/gl_tile_outline.glsl
+  projection/gl_tile_plan.comp
+  projection/gl_tile_ranges.comp
   projection/gl_variants.glsl
   shading/cell_shading.glsl
   shading/light_model.glsl

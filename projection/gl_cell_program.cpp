@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
+#include <projection/gl_compute.h>
+#include <projection/gl_tiles.h>
 #include <projection/transfer_support.h>
 
 namespace tetralux::projection {
@@ -76,6 +79,7 @@ GlDefines variant(const RenderSettings& settings, const shading::VertexLight& ve
     GlDefines defines;
     defines.set("TETRALUX_ORTHOGRAPHIC", kind.orthographic);
     defines.set("TETRALUX_LIMITS", kind.limited);
+    defines.set("TETRALUX_TILES", kind.tiles);
     defines.set("TETRALUX_MODE", shaderMode(settings.mode));
     defines.set("TETRALUX_SCALE_INVARIANT", scaleInvariant);
     defines.set("TETRALUX_DATA_SPACE", dataSpace);
@@ -117,7 +121,7 @@ GlDefines variant(const RenderSettings& settings, const shading::VertexLight& ve
     return defines;
 }
 
-std::vector<std::string_view> fragmentFiles(bool looksUp) {
+std::vector<std::string_view> pixelFiles(bool looksUp) {
     std::vector<std::string_view> files{"preint/glsl_prelude.glsl",       "projection/gl_precision.glsl",
                                         "projection/gl_variants.glsl",    "projection/cell_interval.glsl",
                                         "projection/gl_cell_record.glsl", "shading/light_model.glsl",
@@ -127,8 +131,25 @@ std::vector<std::string_view> fragmentFiles(bool looksUp) {
                                    "shading/cell_shading.glsl", "shading/silhouette.glsl", "projection/gl_modes.glsl",
                                    "projection/gl_segment.glsl"});
     }
-    files.push_back("projection/gl_cell.frag");
+    files.emplace_back("projection/gl_cell_pixel.glsl");
     return files;
+}
+
+std::vector<GlShaderSource> shaders(bool looksUp, bool tiles) {
+    std::vector<std::string_view> files = pixelFiles(looksUp);
+    if (tiles) {
+        files.insert(files.begin(), "projection/gl_compute.glsl");
+        files.insert(files.end(), {"projection/gl_tile_outline.glsl", "projection/gl_tile_draw.comp"});
+        return {{GL_COMPUTE_SHADER, files}};
+    }
+    files.emplace_back("projection/gl_cell.frag");
+    return {{GL_VERTEX_SHADER, {"projection/gl_cell.vert"}}, {GL_FRAGMENT_SHADER, files}};
+}
+
+GlDefines withTileConstants(GlDefines defines, bool tiles) {
+    if (!tiles) return defines;
+    defines.set("TETRALUX_TILE_SIZE", glTileSize);
+    return computeDefines(std::move(defines));
 }
 
 void setVector(const GlFunctions& gl, GLint location, const glm::dvec3& value) {
@@ -205,9 +226,11 @@ GlCellProgram::GlCellProgram(const GlFunctions& gl, const RenderSettings& settin
                              const shading::VertexLight& vertexLight, const preint::TransferFunction& function,
                              const preint::PreintegrationTable* table, GlFrameKind kind, bool linearSampler)
     : gl_(gl),
-      program_(
-          gl, variant(settings, vertexLight, extinctionSupport(function).size(), table, kind, linearSampler),
-          {{GL_VERTEX_SHADER, {"projection/gl_cell.vert"}}, {GL_FRAGMENT_SHADER, fragmentFiles(table != nullptr)}}),
+      program_(gl,
+               withTileConstants(
+                   variant(settings, vertexLight, extinctionSupport(function).size(), table, kind, linearSampler),
+                   kind.tiles),
+               shaders(table != nullptr, kind.tiles)),
       ndcPerPixel_(program_.uniform("ndcPerPixel")),
       centre_(program_.uniform("centre")),
       viewForward_(program_.uniform("viewForward")),
@@ -299,6 +322,12 @@ void GlCellProgram::use(const CameraFrame& frame, double depthReference) const {
     setVector(gl_, viewRight_, frame.perPixelRight);
     setVector(gl_, viewDown_, frame.perPixelDown);
     gl_.Uniform1f(depthReference_, static_cast<float>(depthReference));
+}
+
+void GlCellProgram::setTiles(const CameraFrame& frame, std::size_t cellFloats, float leastTransmittance) const {
+    gl_.Uniform2i(program_.uniform("viewSize"), frame.width, frame.height);
+    gl_.Uniform1ui(program_.uniform("cellVectors"), static_cast<GLuint>(cellFloats / 4));
+    gl_.Uniform1f(program_.uniform("leastTransmittance"), leastTransmittance);
 }
 
 }  // namespace tetralux::projection

@@ -25,6 +25,7 @@ inline constexpr GLuint tableUnit = 0, vertexLightUnit = 1, limitsUnit = 2;  ///
 struct GlFrameKind {
     bool orthographic = false;
     bool limited = false;  ///< within pixel maps
+    bool tiles = false;    ///< by compute tiles (gl_tiles.h)
 };
 
 /// A pre-integration table as a texture, 2D or 3D, zones stacked along its rows.
@@ -73,6 +74,10 @@ public:
 
     /// Makes it current again, with all that use() and setLights() have set.
     void resume() const { program_.use(); }
+
+    /// Of compute tiles, after use(): `cellFloats` of each cell's vertices; pixels whose transmittance is below the
+    /// least are finished.
+    void setTiles(const CameraFrame& frame, std::size_t cellFloats, float leastTransmittance) const;
 
     /// The lights of that camera, for programs of light in full; after use().
     void setLights(const std::vector<FrameLight>& lights, const SceneUnits& units) const;

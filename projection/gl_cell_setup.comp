@@ -8,7 +8,7 @@ layout(std430, binding = 5) writeonly buffer Vertices { uint vertices[]; };
 layout(std430, binding = 6) readonly buffer Gradients { vec4 gradients[]; };
 #endif
 
-uniform uint chunkBegin, chunkCells;
+uniform uint chunkBegin, chunkCells, reversed;  // reversed: from the last cell of the order on
 uniform double margin;  // pixels
 
 void store(uint at, float value) { vertices[at] = floatBitsToUint(value); }
@@ -30,11 +30,7 @@ bool sortCorners(uvec4 points, out int order[4]) {
 void main() {
     uint slot = itemNumber(), place = chunkBegin + slot;
     if (slot >= chunkCells || place >= plan.drawn) return;
-#if TETRALUX_KEYS
-    uint cell = keyed[plan.drawn - 1 - place].y;  // nearest first
-#else
-    uint cell = keyed[place].y;
-#endif
+    uint cell = keyed[reversed != 0 ? plan.drawn - 1 - place : place].y;
     uvec4 points = cells[cell];
     CellView view = cellView();
     uint base = slot * TETRALUX_CELL_FLOATS;

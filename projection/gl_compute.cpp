@@ -15,7 +15,14 @@ namespace {
 
 constexpr std::size_t groupsAlongX = 32768;  // 65,535 is what OpenGL promises
 
-GlDefines withConstants(GlDefines defines) {
+std::vector<std::string_view> afterCommon(std::vector<std::string_view> files) {
+    files.insert(files.begin(), "projection/gl_compute.glsl");
+    return files;
+}
+
+}  // namespace
+
+GlDefines computeDefines(GlDefines defines) {
     const std::pair<const char*, double> constants[] = {
         {"largestPlane", largestPlane},           {"leastEyeCoordinate", leastEyeCoordinate},
         {"leastDeterminant", leastDeterminant},   {"unboundedPixel", unboundedPixel},
@@ -28,13 +35,6 @@ GlDefines withConstants(GlDefines defines) {
     defines.set("TETRALUX_GROUPS_ALONG_X", fmt::format("{}u", groupsAlongX));
     return defines;
 }
-
-std::vector<std::string_view> afterCommon(std::vector<std::string_view> files) {
-    files.insert(files.begin(), "projection/gl_compute.glsl");
-    return files;
-}
-
-}  // namespace
 
 GlStorage::GlStorage(const GlFunctions& gl, std::size_t bytes, const void* data, GLenum usage) : gl_(gl) {
     GLint64 largest = 0;
@@ -70,7 +70,7 @@ void bindStorage(const GlFunctions& gl, std::initializer_list<GLuint> buffers) {
 }
 
 GlKernel::GlKernel(const GlFunctions& gl, GlDefines defines, std::vector<std::string_view> files)
-    : gl_(gl), program_(gl, withConstants(std::move(defines)), {{GL_COMPUTE_SHADER, afterCommon(std::move(files))}}) {}
+    : gl_(gl), program_(gl, computeDefines(std::move(defines)), {{GL_COMPUTE_SHADER, afterCommon(std::move(files))}}) {}
 
 void GlKernel::set(const char* name, std::size_t value) const {
     gl_.Uniform1ui(uniform(name), static_cast<GLuint>(value));

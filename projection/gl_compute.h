@@ -43,6 +43,9 @@ void bindStorage(const GlFunctions& gl, std::initializer_list<GLuint> buffers);
 /// Lanes of a group, cells of a block of the radix sort.
 inline constexpr unsigned glGroup = 256, glSortBlock = 2048;
 
+/// With the constants that gl_compute.glsl and the shared texts of cells ask for.
+GlDefines computeDefines(GlDefines defines);
+
 /// A compute shader; its buffers' binding points are counted from 0, which is the frame's plan (gl_compute.glsl).
 class GlKernel {
 public:

@@ -13,11 +13,13 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
+#include <projection/cell_constants.h>
 #include <projection/edge_on_planes.h>
 #include <projection/gl_cell_order.h>
 #include <projection/gl_cell_program.h>
 #include <projection/gl_cell_stream.h>
 #include <projection/gl_context.h>
+#include <projection/gl_draw_trial.h>
 #include <projection/gl_fragment_count.h>
 #include <projection/gl_frame_target.h>
 #include <projection/gl_limits.h>
@@ -25,6 +27,7 @@
 #include <projection/gl_resident_cells.h>
 #include <projection/gl_resolve.h>
 #include <projection/gl_sampler_probe.h>
+#include <projection/gl_tiles.h>
 #include <projection/ray_nearness.h>
 #include <projection/transfer_support.h>
 #include <glm/geometric.hpp>
@@ -54,9 +57,10 @@ struct GlState {
     std::optional<GlFragmentCount> fragments;
     std::optional<GlTableTexture> table;
     std::optional<GlVertexLight> vertexLight;
-    std::array<std::unique_ptr<GlCellProgram>, 4> programs;  // by GlFrameKind: made when first needed
+    std::array<std::unique_ptr<GlCellProgram>, 8> programs;  // by GlFrameKind: made when first needed
     std::optional<GlLimits> limits;                          // made when first needed
     std::optional<GlResidentCells> resident;                 // where the frame's cells come from, else from `stream`
+    std::optional<GlTiles> tiles;                            // what draws them, else the rasterizer
 };
 
 /// Pixels by which outlines grow: rasterizers move vertices by up to half a step of their grid, and corners are float.
@@ -158,9 +162,15 @@ private:
     void choosePath(GlPath wanted);
     const GlCellProgram& program(GlFrameKind kind);
     void setBlending() const;
-    const GlCellProgram& beginFrame(const View& view, const CameraFrame& frame);
+    GlDrawing wayOfFrame(const CameraFrame& frame);
+    const GlCellProgram& beginFrame(const View& view, const CameraFrame& frame, GlDrawing way);
     void drawStreamed(const CameraFrame& frame, const GlCellProgram& program, FrameReport& report);
-    bool drawResident(const CameraFrame& frame, const GlCellProgram& program, FrameReport& report);
+    void drawRaster(const CameraFrame& frame, const GlCellProgram& program, const std::vector<mesh::CellIndex>* order,
+                    FrameReport& report);
+    void drawTiles(const CameraFrame& frame, const GlCellProgram& program, const std::vector<mesh::CellIndex>* order,
+                   FrameReport& report);
+    bool drawResident(const View& view, const CameraFrame& frame, FrameReport& report);
+    bool drawInOrder(const View& view, const CameraFrame& frame, GlDrawing way, FrameReport& report);
     void checkScales(const PixelMaps& maps) const;
     CellCorners cellCorners(const CellProjector& projector, const CellRecord& record, const CameraFrame& frame,
                             mesh::CellIndex cell) const;
@@ -179,7 +189,8 @@ private:
     GlCellLayout layout_;
     std::unique_ptr<GlContext> context_;
     std::optional<GlState> state_;
-    std::string pathReason_;
+    GlPathChoice path_{GlPath::Stream, ""};
+    GlDrawTrial trial_;
     std::map<std::string, double> prepare_;
 };
 
@@ -200,23 +211,30 @@ void GlEngine::makeState() {
 
 /// gl_path.h: the rule.
 void GlEngine::choosePath(GlPath wanted) {
-    if (wanted == GlPath::Stream || (wanted == GlPath::Auto && isSoftwareRenderer(state_->renderer))) {
-        pathReason_ = wanted == GlPath::Stream ? "asked for" : "software renderer";
-        return;
-    }
-    try {
+    const std::size_t chunk =
+        isSoftwareRenderer(state_->renderer) ? GlResidentCells::softwareChunk : GlResidentCells::gpuChunk;
+    const auto keepCells = [&] {
         state_->resident.emplace(*state_->gl, *scene_.mesh, units_, order_->visible(), order_->keys(),
-                                 order_->relations(), layout_);
-        pathReason_ = wanted == GlPath::Resident ? "asked for" : "GPU";
-    } catch (const std::runtime_error& error) {
-        if (wanted == GlPath::Resident) throw;
-        state_->resident.reset();
-        pathReason_ = error.what();
-    }
+                                 order_->relations(), layout_, chunk);
+    };
+    const auto makeTiles = [&] {
+        const std::size_t cells = state_->resident->chunkCells();
+        state_->tiles.emplace(*state_->gl, layout_, cells, 4 * cells + 1024);
+        program({.tiles = true});
+    };
+    path_ = chooseGlPath(wanted, state_->renderer, keepCells, makeTiles);
+    if (path_.path == GlPath::Stream) state_->resident.reset();
+    if (path_.path != GlPath::Tiles && path_.path != GlPath::Measured) state_->tiles.reset();
+}
+
+GlDrawing GlEngine::wayOfFrame(const CameraFrame& frame) {
+    if (!state_->tiles) return GlDrawing::Raster;
+    if (path_.path == GlPath::Tiles) return GlDrawing::Tiles;
+    return trial_.next(static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height));
 }
 
 const GlCellProgram& GlEngine::program(GlFrameKind kind) {
-    auto& made = state_->programs[(kind.orthographic ? 1u : 0u) + (kind.limited ? 2u : 0u)];
+    auto& made = state_->programs[(kind.orthographic ? 1u : 0u) + (kind.limited ? 2u : 0u) + (kind.tiles ? 4u : 0u)];
     if (!made) {
         made = std::make_unique<GlCellProgram>(*state_->gl, scene_.settings, *vertexLight_, function_, table(), kind,
                                                state_->linearSampler);
@@ -273,7 +291,7 @@ void GlEngine::writeCells(const CellProjector& projector, const CameraFrame& fra
 }
 
 /// Clears the target and binds all that fragments read.
-const GlCellProgram& GlEngine::beginFrame(const View& view, const CameraFrame& frame) {
+const GlCellProgram& GlEngine::beginFrame(const View& view, const CameraFrame& frame, GlDrawing way) {
     state_->target->begin(frame.width, frame.height, clearValue(mode()));
     const bool limited = view.maps != nullptr && view.maps->changeVolume();
     const double depthReference = depthReferenceOf(scene_.mesh->bounds, frame, units_);
@@ -285,8 +303,10 @@ const GlCellProgram& GlEngine::beginFrame(const View& view, const CameraFrame& f
     }
     if (state_->table) state_->table->bind(tableUnit);  // after uploads, which bind textures of their own
     if (state_->vertexLight) state_->vertexLight->bind(vertexLightUnit);
-    const GlCellProgram& cellProgram = program({frame.orthographic, limited});
+    const GlCellProgram& cellProgram = program({frame.orthographic, limited, way == GlDrawing::Tiles});
     cellProgram.use(frame, depthReference);
+    if (way == GlDrawing::Tiles)
+        cellProgram.setTiles(frame, layout_.floats(), scene_.settings.earlyTermination ? leastTransmittance : -1.0f);
     if (fullLight_) cellProgram.setLights(frameLights(scene_.settings.shading, units_, frame), units_);
     setBlending();
     return cellProgram;
@@ -319,10 +339,41 @@ void GlEngine::drawStreamed(const CameraFrame& frame, const GlCellProgram& cellP
     report.bytesUploaded += cells.size() * layout_.floats() * sizeof(float);
 }
 
+void GlEngine::drawRaster(const CameraFrame& frame, const GlCellProgram& cellProgram,
+                          const std::vector<mesh::CellIndex>* order, FrameReport& report) {
+    Stopwatch watch;
+    state_->fragments->begin();
+    state_->resident->draw(frame, order, outlineMargin(*state_->gl, frame), [&] { cellProgram.resume(); });
+    report.stageMilliseconds["upload"] =
+        watch.lap();  // and shaders on their way: what they take is seen only at the end
+    state_->fragments->end();
+    report.fragments = state_->fragments->count();
+    report.dataPath = "resident";
+}
+
+void GlEngine::drawTiles(const CameraFrame& frame, const GlCellProgram& cellProgram,
+                         const std::vector<mesh::CellIndex>* order, FrameReport& report) {
+    Stopwatch watch;
+    const double margin = outlineMargin(*state_->gl, frame);
+    do {
+        state_->target->begin(frame.width, frame.height, clearValue(mode()));
+        state_->resident->drawTiles(frame, order, margin, *state_->tiles, state_->target->texture(),
+                                    [&] { cellProgram.resume(); });
+        report.stageMilliseconds["upload"] += watch.lap();
+    } while (state_->tiles->overflowed());
+    const GlTileCounts counts = state_->tiles->counts();
+    report.fragments = counts.fragments;
+    report.tileEntries = counts.entries;
+    report.tileEntriesSaved = counts.entriesSaved;
+    report.tilesRetired = counts.retired;
+    report.dataPath = "tiles";
+}
+
 /// False where the GPU could not put all cells in order: then nothing of the frame is of use.
-bool GlEngine::drawResident(const CameraFrame& frame, const GlCellProgram& cellProgram, FrameReport& report) {
+bool GlEngine::drawInOrder(const View& view, const CameraFrame& frame, GlDrawing way, FrameReport& report) {
     Stopwatch watch;
     auto& stages = report.stageMilliseconds;
+    const GlCellProgram& cellProgram = beginFrame(view, frame, way);
     order_->describe(report);
     const std::vector<mesh::CellIndex>* order = nullptr;
     if (order_->ofWholeMesh()) {
@@ -332,20 +383,40 @@ bool GlEngine::drawResident(const CameraFrame& frame, const GlCellProgram& cellP
         order = &order_->backToFront(projector, report);
         stages["sort"] = watch.lap();
     }
-    state_->fragments->begin();
-    state_->resident->draw(frame, order, outlineMargin(*state_->gl, frame), [&] { cellProgram.resume(); });
-    stages["upload"] = watch.lap();  // and shaders on their way: what they take is seen only when waiting for all
-    state_->fragments->end();
-    report.fragments = state_->fragments->count();
+    watch.lap();
+    if (way == GlDrawing::Tiles) {
+        drawTiles(frame, cellProgram, order, report);
+    } else {
+        drawRaster(frame, cellProgram, order, report);
+    }
     const GlFrameCounts counts = state_->resident->counts();
-    stages["draw"] += watch.lap();
-    report.dataPath = "resident";
+    stages["draw"] += watch.lap() - stages["upload"];
     report.bytesUploaded = state_->resident->uploadedLast();
     report.cellsDrawn = counts.drawn;
     if (order_->keys() != nullptr) report.cellsSorted = counts.drawn;
     const std::uint64_t leftOut = order != nullptr ? order_->visible().size() - order->size() : 0;
     order_->tellSkipped(counts.outsideView + leftOut, counts.noPixelCentre, report);
     return counts.unsettled == 0;
+}
+
+/// The frame by cells on the GPU, as the path has it; the same.
+bool GlEngine::drawResident(const View& view, const CameraFrame& frame, FrameReport& report) {
+    const GlDrawing way = wayOfFrame(frame);
+    Stopwatch watch;
+    bool drawn = false;
+    try {
+        drawn = drawInOrder(view, frame, way, report);
+    } catch (const std::runtime_error& error) {
+        if (way == GlDrawing::Raster) throw;
+        state_->tiles.reset();  // a variant that the driver refuses, or more pairs than a buffer holds
+        path_ = {GlPath::Resident, error.what()};
+        report.stageMilliseconds.clear();
+        drawn = drawInOrder(view, frame, GlDrawing::Raster, report);
+    }
+    if (path_.path == GlPath::Measured) trial_.took(watch.lap(), report.cellsDrawn);
+    report.dataPathReason = path_.path == GlPath::Measured ? trial_.reason() : path_.reason;
+    if (!drawn) report.dataPathReason = "the GPU could not put all cells in order";
+    return drawn;
 }
 
 Image GlEngine::render(const View& view, FrameReport& report) {
@@ -355,18 +426,13 @@ Image GlEngine::render(const View& view, FrameReport& report) {
     const CameraFrame frame = sampledFrame(view.camera, edgeOnPlanes_);
     report.samplesBeside = frame.sampleShift == EdgeOnPlanes::widely;
     const CurrentGlContext current(*context_);
-    const GlCellProgram& cellProgram = beginFrame(view, frame);
-    stages["draw"] = watch.lap();
-    report.dataPathReason = pathReason_;
-    bool drawn = false;
-    if (state_->resident) {
-        drawn = drawResident(frame, cellProgram, report);
-        if (!drawn) {
-            beginFrame(view, frame);
-            report.dataPathReason = "the GPU could not put all cells in order";
-        }
+    report.dataPathReason = path_.reason;
+    if (!state_->resident || !drawResident(view, frame, report)) {
+        watch.lap();
+        const GlCellProgram& cellProgram = beginFrame(view, frame, GlDrawing::Raster);
+        stages["draw"] += watch.lap();
+        drawStreamed(frame, cellProgram, report);
     }
-    if (!drawn) drawStreamed(frame, cellProgram, report);
     watch.lap();
     Image image = state_->target->read();
     resolveOrderFree(image, scene_, view.camera, units_);

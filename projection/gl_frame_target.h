@@ -21,6 +21,8 @@ public:
     /// \throws std::runtime_error when the renderer has no target of that size.
     void begin(int width, int height, float value);
 
+    GLuint texture() const { return texture_; }  ///< of the last begin()
+
     /// Waits for all drawing and reads the pixels.
     Image read() const;
 

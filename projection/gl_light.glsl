@@ -24,8 +24,8 @@ vec3 middlePlace;   // of the segment, from the eye, scene lengths
 vec4 middleWeight;  // barycentric coordinates there
 
 #if TETRALUX_ATTRIBUTES
-flat in vec4 eyeWeight;
-flat in uvec4 points;
+TETRALUX_OF_CELL vec4 eyeWeight;
+TETRALUX_OF_CELL uvec4 points;
 uniform samplerBuffer vertexLight;  // TETRALUX_ATTRIBUTES texels per point
 
 float attributeAt(int place) {

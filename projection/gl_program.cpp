@@ -47,7 +47,7 @@ GLuint compileShader(const GlFunctions& gl, const GlDefines& defines, const GlSh
 
 }  // namespace
 
-GlProgram::GlProgram(const GlFunctions& gl, const GlDefines& defines, std::initializer_list<GlShaderSource> sources)
+GlProgram::GlProgram(const GlFunctions& gl, const GlDefines& defines, const std::vector<GlShaderSource>& sources)
     : gl_(gl), program_(gl.CreateProgram()) {
     try {
         for (const GlShaderSource& source : sources) {

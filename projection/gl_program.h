@@ -4,7 +4,6 @@
 /// when they are made, used and destroyed.
 #pragma once
 
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,7 +34,7 @@ struct GlShaderSource {
 class GlProgram {
 public:
     /// Compiles and links. \throws std::runtime_error with the driver's message when that fails.
-    GlProgram(const GlFunctions& gl, const GlDefines& defines, std::initializer_list<GlShaderSource> sources);
+    GlProgram(const GlFunctions& gl, const GlDefines& defines, const std::vector<GlShaderSource>& sources);
     ~GlProgram();
     GlProgram(const GlProgram&) = delete;
     GlProgram& operator=(const GlProgram&) = delete;

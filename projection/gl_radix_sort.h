@@ -3,6 +3,8 @@
 /// Internal: sorting on the GPU.
 #pragma once
 
+#include <optional>
+
 #include <glm/vec4.hpp>
 
 #include <projection/gl_compute.h>
@@ -22,13 +24,20 @@ public:
     void sort(GLuint plan, std::size_t sortGroups, std::size_t settleGroups, GLuint keyed, GLuint scratch,
               GLuint keyPlanes, const glm::dvec4& eye) const;
 
+    /// The same for any pairs, by the lower `bits` bits of their first number, in as many passes as these ask for, an
+    /// even number. Equal ones stay in their order.
+    void sortBits(GLuint plan, std::size_t sortGroups, GLuint keyed, GLuint scratch, unsigned bits) const;
+
+    /// Makes room for so many pairs.
+    void reserve(std::size_t cells);
+
     /// Prefix sums of `count` numbers, followed by the sum of all.
     void scan(GLuint plan, GLuint values, std::size_t count) const;
 
 private:
     const GlFunctions& gl_;
     GlKernel count_, scan_, scatter_, settle_;
-    GlStorage digits_;
+    std::optional<GlStorage> digits_;
 };
 
 }  // namespace tetralux::projection

@@ -10,9 +10,6 @@
 namespace tetralux::projection {
 namespace {
 
-/// Cells that are set up and drawn at a time: 128 MiB of vertices would hold a million, but a draw may begin earlier.
-constexpr std::size_t mostChunkCells = std::size_t{1} << 17;
-
 // The plan of gl_compute.glsl.
 struct ChunkCommands {
     GLuint setUp[3], draw[5];
@@ -73,7 +70,7 @@ GlResidentCells::Kernels::Kernels(const GlFunctions& gl, GlDefines defines)
 
 GlResidentCells::GlResidentCells(const GlFunctions& gl, const mesh::ScalarMesh& mesh, const SceneUnits& units,
                                  const std::vector<mesh::CellIndex>& visible, const OrderKeys* keys,
-                                 const mesh::Adjacency* adjacency, GlCellLayout layout)
+                                 const mesh::Adjacency* adjacency, GlCellLayout layout, std::size_t mostChunkCells)
     : gl_(gl),
       units_(units),
       keys_(keys),
@@ -185,28 +182,34 @@ void GlResidentCells::check(const Kernels& kernel) const {
     kernel.check.runIndirect(offsetof(PlanHead, settleGroups));
 }
 
-void GlResidentCells::drawChunk(const Kernels& kernel, std::size_t chunk,
-                                const std::function<void()>& useCellProgram) const {
+void GlResidentCells::beginSetUp(const CameraFrame& frame, double margin, bool reversed) {
+    const GlKernel& setUp = kernels(frame.orthographic).setUp;
+    setUp.use();
+    setView(setUp, frame);
+    setUp.set("chunkCells", chunkCells_);
+    setUp.set("margin", margin);
+    setUp.set("reversed", std::size_t{reversed ? 1u : 0u});
+}
+
+const GlCellBuffer& GlResidentCells::setUpChunk(const Kernels& kernel, std::size_t chunk) const {
     const GlCellBuffer& buffer = *buffers_[chunk % 2];
     kernel.setUp.use();
     kernel.setUp.set("chunkBegin", chunk * chunkCells_);
     bindStorage(gl_, {plan_.name(), cameraPoints_.name(), cells_.name(), scalars_.name(), keyed_.name(),
                       buffer.vertices(), gradients_.name()});
     kernel.setUp.runIndirect(chunkBytes(chunk) + offsetof(ChunkCommands, setUp));
-    useCellProgram();
-    gl_.BindVertexArray(buffer.vertexArray());
-    gl_.DrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
-                             reinterpret_cast<const void*>(chunkBytes(chunk) + offsetof(ChunkCommands, draw)));
+    return buffer;
 }
 
-void GlResidentCells::draw(const CameraFrame& frame, const std::vector<mesh::CellIndex>* order, double margin,
-                           const std::function<void()>& useCellProgram) {
+/// All that comes before cells are set up: afterwards those that cover pixels stand in order in keyed_, by keys the
+/// nearest first, else as they came. Their number is at most what is returned.
+std::size_t GlResidentCells::prepare(const CameraFrame& frame, const std::vector<mesh::CellIndex>* order) {
     const Kernels& kernel = kernels(frame.orthographic);
     const PlanHead nothing{};
     plan_.write(sizeof(nothing), &nothing);
     uploadedLast_ = sizeof(nothing);
     const std::size_t count = order != nullptr ? order->size() : visibleCount_;
-    if (count == 0) return;
+    if (count == 0) return 0;
     if (order != nullptr) {
         if (!order_) order_.emplace(gl_, visibleCount_ * sizeof(mesh::CellIndex), nullptr, GL_STREAM_DRAW);
         order_->write(count * sizeof(mesh::CellIndex), order->data());
@@ -220,14 +223,37 @@ void GlResidentCells::draw(const CameraFrame& frame, const std::vector<mesh::Cel
         sort_.sort(plan_.name(), offsetof(PlanHead, sortGroups), offsetof(PlanHead, settleGroups), keyed_.name(),
                    scratch_.name(), keyPlanes_.name(), keys_->eye(frame));
     if (checks_) check(kernel);
-    kernel.setUp.use();
-    setView(kernel.setUp, frame);
-    kernel.setUp.set("chunkCells", chunkCells_);
-    kernel.setUp.set("margin", margin);
+    return count;
+}
+
+void GlResidentCells::draw(const CameraFrame& frame, const std::vector<mesh::CellIndex>* order, double margin,
+                           const std::function<void()>& useCellProgram) {
+    const std::size_t count = prepare(frame, order);
+    if (count == 0) return;
+    beginSetUp(frame, margin, keys_ != nullptr);
     gl_.ProvokingVertex(GL_FIRST_VERTEX_CONVENTION);
-    for (std::size_t chunk = 0; chunk * chunkCells_ < count; ++chunk) drawChunk(kernel, chunk, useCellProgram);
+    for (std::size_t chunk = 0; chunk * chunkCells_ < count; ++chunk) {
+        const GlCellBuffer& buffer = setUpChunk(kernels(frame.orthographic), chunk);
+        useCellProgram();
+        gl_.BindVertexArray(buffer.vertexArray());
+        gl_.DrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+                                 reinterpret_cast<const void*>(chunkBytes(chunk) + offsetof(ChunkCommands, draw)));
+    }
     gl_.BindVertexArray(0);
     checkGl(gl_, "resident cells");
+}
+
+void GlResidentCells::drawTiles(const CameraFrame& frame, const std::vector<mesh::CellIndex>* order, double margin,
+                                GlTiles& tiles, GLuint texture, const std::function<void()>& useTileProgram) {
+    const std::size_t count = prepare(frame, order);
+    tiles.begin(frame, texture);
+    if (count == 0) return;
+    beginSetUp(frame, margin, keys_ == nullptr);
+    for (std::size_t chunk = 0; chunk * chunkCells_ < count; ++chunk) {
+        const GlCellBuffer& buffer = setUpChunk(kernels(frame.orthographic), chunk);
+        tiles.draw(plan_.name(), buffer.vertices(), chunk * chunkCells_, useTileProgram);
+    }
+    checkGl(gl_, "compute tiles");
 }
 
 GlFrameCounts GlResidentCells::counts() const {

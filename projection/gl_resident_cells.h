@@ -13,7 +13,7 @@
 #include <mesh/adjacency.h>
 #include <projection/camera_points.h>
 #include <projection/gl_cell_buffer.h>
-#include <projection/gl_radix_sort.h>
+#include <projection/gl_tiles.h>
 #include <projection/order_keys.h>
 
 namespace tetralux::projection {
@@ -31,13 +31,22 @@ public:
     /// \throws std::runtime_error when the driver refuses a shader or the mesh does not fit its buffers.
     GlResidentCells(const GlFunctions& gl, const mesh::ScalarMesh& mesh, const SceneUnits& units,
                     const std::vector<mesh::CellIndex>& visible, const OrderKeys* keys,
-                    const mesh::Adjacency* adjacency, GlCellLayout layout);
+                    const mesh::Adjacency* adjacency, GlCellLayout layout, std::size_t mostChunkCells = softwareChunk);
+
+    /// Cells that are set up and drawn at a time. Many keep a GPU busy: 2¹⁹ of them have 92 MB of vertices at most, and
+    /// shaders see 128 MiB of a buffer at least. Software renderers begin earlier with fewer.
+    static constexpr std::size_t softwareChunk = std::size_t{1} << 17, gpuChunk = std::size_t{1} << 19;
+    std::size_t chunkCells() const { return chunkCells_; }
 
     /// Draws, with blending as it is set. `order`: some of the visible cells, the farthest first; nullptr: all of them,
     /// by keys or, without keys, as they come. `useCellProgram` makes the program
     /// current that draws cells. `margin`: of outlines, pixels.
     void draw(const CameraFrame& frame, const std::vector<mesh::CellIndex>* order, double margin,
               const std::function<void()>& useCellProgram);
+
+    /// The same by compute tiles, for chunks of chunkCells(), into `texture`; `useTileProgram` makes theirs current.
+    void drawTiles(const CameraFrame& frame, const std::vector<mesh::CellIndex>* order, double margin, GlTiles& tiles,
+                   GLuint texture, const std::function<void()>& useTileProgram);
 
     /// Of the last frame drawn; waits for it.
     GlFrameCounts counts() const;
@@ -55,7 +64,9 @@ private:
     void select(const Kernels& kernel, const CameraFrame& frame, GLuint candidates, std::size_t count);
     void check(const Kernels& kernel) const;
     void setView(const GlKernel& kernel, const CameraFrame& frame) const;
-    void drawChunk(const Kernels& kernel, std::size_t chunk, const std::function<void()>& useCellProgram) const;
+    std::size_t prepare(const CameraFrame& frame, const std::vector<mesh::CellIndex>* order);
+    void beginSetUp(const CameraFrame& frame, double margin, bool reversed);
+    const GlCellBuffer& setUpChunk(const Kernels& kernel, std::size_t chunk) const;
 
     const GlFunctions& gl_;
     SceneUnits units_;

@@ -10,6 +10,7 @@
 //   TETRALUX_SCALE_INVARIANT  the table is a 2D one of that integral; without it a 3D one is looked up with the path as its length
 //   TETRALUX_SAMPLED          post-classification, pre-classification where TETRALUX_SAMPLE_AT ≥ 0; TETRALUX_LINEAR_OPACITY: linear form
 //   TETRALUX_LIMITS           the view has pixel maps
+//   TETRALUX_TILES            compute tiles (gl_tile_draw.comp), else fragments
 #define TETRALUX_MODE_VOLUME 0
 #define TETRALUX_MODE_MIP 1
 #define TETRALUX_MODE_AVERAGE 2
@@ -19,6 +20,16 @@
 #define TETRALUX_MODE_ABSORPTION 6
 #define TETRALUX_MODE_DEPTH 7
 #define TETRALUX_MODE_CONTRIBUTION 8
+
+// What is the same for all pixels of a cell.
+#if TETRALUX_TILES
+#define TETRALUX_OF_CELL
+#else
+#define TETRALUX_OF_CELL flat in
+#endif
+#if TETRALUX_GRADIENT
+TETRALUX_OF_CELL vec4 gradient;  // unit normal, magnitude in scene units
+#endif
 
 #if TETRALUX_LIMITS
 float interfaceScale = 1.0;  // of the pixel: factor of extinction

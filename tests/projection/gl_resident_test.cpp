@@ -3,8 +3,6 @@
 // The OpenGL engine with its cells on the GPU (gl_resident_cells.h) against the one that streams them: both compile the
 // same formulas in doubles, so that records agree to the bit but for what a compiler contracts, and the order is the
 // same. Here both run on llvmpipe.
-#include <cmath>
-#include <memory>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -13,7 +11,6 @@
 #include <glm/geometric.hpp>
 
 #include <projection/gl_context.h>
-#include <projection/gl_engine.h>
 #include <projection/gl_frame_target.h>
 #include <projection/gl_path.h>
 #include <projection/gl_resident_cells.h>
@@ -21,76 +18,15 @@
 #include <projection/light_frame.h>
 #include <projection/visibility_order.h>
 #include <projection/visibility_relations.h>
-#include <tests/support/analytic_scenes.h>
+#include <tests/support/gl_path_pictures.h>
 
 namespace tetralux::projection {
 namespace {
 
 using namespace tetralux::test;
 
-double waves(const glm::dvec3& p) {
-    return 0.5 + 0.4 * std::sin(5 * p.x + 3 * p.y) * std::cos(4 * p.z);
-}
-
-struct Picture {
-    Image image{1, 1};
-    FrameReport report;
-};
-
-std::unique_ptr<Engine> engineOf(const Scene& scene, const std::string& path, const std::string& context = "auto") {
-    EngineOptions options;
-    options.context = context;
-    options.glPath = path;
-    return makeGlEngine(scene, options);
-}
-
-Picture pictureOf(Engine& engine, const View& view) {
-    Picture picture;
-    picture.image = engine.render(view, picture.report);
-    return picture;
-}
-
-// Float rounds records whose doubles agree; a last digit may differ where a driver contracts, and every segment of a
-// pixel carries one.
-constexpr double roundingOnly = 1e-5;
-
-void expectSame(const Scene& scene, const std::vector<View>& views, const std::string& context) {
-    const auto streaming = engineOf(scene, "stream", context), keeping = engineOf(scene, "resident", context);
-    for (const View& view : views) {
-        const Picture stream = pictureOf(*streaming, view), resident = pictureOf(*keeping, view);
-        const double eye = view.camera.eye.x;
-        EXPECT_LE(compareImages(stream.image, resident.image).max, roundingOnly) << eye << ' ' << context;
-        EXPECT_EQ(stream.report.dataPath, "stream");
-        EXPECT_EQ(resident.report.dataPath, "resident") << eye;
-        EXPECT_EQ(stream.report.cellsDrawn, resident.report.cellsDrawn) << eye;
-        EXPECT_EQ(stream.report.cellsSkipped, resident.report.cellsSkipped) << eye;
-        EXPECT_EQ(stream.report.cellsSorted, resident.report.cellsSorted) << eye;
-        EXPECT_EQ(stream.report.orderMethod, resident.report.orderMethod) << eye;
-        EXPECT_GT(resident.report.cellsDrawn, 0u) << eye;
-        EXPECT_GT(resident.report.fragments, 0u) << eye;
-        // float may put a grazed pixel on either side
-        EXPECT_NEAR(static_cast<double>(stream.report.fragments) / static_cast<double>(resident.report.fragments), 1.0,
-                    1e-3)
-            << eye;
-        double strongest = 0;
-        for (const glm::vec4& pixel : stream.image.pixels)
-            strongest = std::max({strongest, static_cast<double>(pixel.x), static_cast<double>(pixel.w)});
-        EXPECT_GT(strongest, 0.05) << eye << ": the picture is empty, nothing is tested";
-    }
-}
-
 void expectSame(const Scene& scene, const std::vector<View>& views) {
-    for (const std::string context : {"egl", "osmesa"}) expectSame(scene, views, context);
-}
-
-// From outside, from between the cells, in parallel, and so near that outlines reach far beyond the image.
-std::vector<View> views() {
-    std::vector<View> all{cameraAt({1.9, 1.4, 2.3}), cameraAt({0.43, 0.51, 0.56}, {0.9, 0.6, 0.7}),
-                          cameraAt({1.9, 1.4, 2.3}), cameraAt({0.5, 0.5, 1.0001}, {0.5, 0.52, 0.5})};
-    all[1].camera.fovDegrees = 100;
-    all[2].camera.orthographicHeight = 1.4;
-    all[3].camera.fovDegrees = 2;
-    return all;
+    test::expectSame(scene, views, "resident");
 }
 
 class ResidentModes : public testing::TestWithParam<Mode> {};
@@ -112,7 +48,7 @@ TEST(Resident, SilhouettesAndLights) {
     expectSame(scene, {views()[0]});
     scene.settings.shading.silhouette = false;
     scene.settings.shading.normals = shading::Normals::Smooth;  // what vertices carry
-    expectSame(withVertexLight(scene), views(), "auto");
+    test::expectSame(withVertexLight(scene), views(), "resident", "auto");
 }
 
 TEST(Resident, CellDataAndInvisibleCells) {
@@ -141,10 +77,10 @@ TEST(Resident, OrderOfTheGraph) {
     const auto hollow = [](const glm::dvec3& p) { return glm::length(p - glm::dvec3(0.5)) > 0.3; };
     Scene scene = sceneOf(carved(jitteredBoxMesh(9, 0.2, 5, waves), hollow), smoothFunction(0.1, 0.9));
     expectSame(scene, views());
-    const Picture resident = pictureOf(*engineOf(scene, "resident"), views()[0]);
+    const PathPicture resident = pictureOf(*engineOf(scene, "resident"), views()[0]);
     EXPECT_EQ(resident.report.orderMethod, "mpvo+reentry");
     EXPECT_LE(resident.report.bytesUploaded, 4 * scene.mesh->cells.size() + 64);
-    const Picture stream = pictureOf(*engineOf(scene, "stream"), views()[0]);
+    const PathPicture stream = pictureOf(*engineOf(scene, "stream"), views()[0]);
     EXPECT_GE(stream.report.bytesUploaded, 128 * stream.report.cellsDrawn);
 }
 
@@ -173,20 +109,9 @@ TEST(Resident, ManyCells) {
 // A clump of cells a hundred thousandth of the mesh's size: whole-number keys cannot tell them apart, doubles can.
 TEST(Resident, TiesAreSettled) {
     for (const int n : {3, 9}) {
-        mesh::ScalarMesh m = boxMesh(n, waves);
-        for (glm::dvec3& p : m.positions) p *= 1e-5;
-        const auto first = static_cast<mesh::PointIndex>(m.positions.size());
-        for (const glm::dvec3& p : {glm::dvec3(0.1, 0, 0), {1, 0, 0.1}, {0.2, 1, 0}, {0, 0.2, 1}}) {
-            m.positions.push_back(p);
-            m.scalars.push_back(0.7);
-        }
-        m.cells.push_back({first, first + 1, first + 2, first + 3});
-        Scene scene = sceneOf(finished(std::move(m)), smoothFunction(0.1, 0.9, 2.5e5));
-        scene.settings.table.size = 32;
-        scene.settings.order = OrderMethod::Centroid;  // which has keys for any mesh
-        Camera camera = cameraAt({1.93e-5, 1.37e-5, 2.21e-5}, glm::dvec3(0.5e-5));
-        const Picture stream = pictureOf(*engineOf(scene, "stream"), camera);
-        const Picture resident = pictureOf(*engineOf(scene, "resident"), camera);
+        const auto [scene, camera] = clumpOfCells(n, 1e-5);
+        const PathPicture stream = pictureOf(*engineOf(scene, "stream"), camera);
+        const PathPicture resident = pictureOf(*engineOf(scene, "resident"), camera);
         EXPECT_GT(stream.report.cellsDrawn, n == 3 ? 20u : 1000u);
         EXPECT_LE(compareImages(stream.image, resident.image).max, roundingOnly);
         EXPECT_EQ(resident.report.dataPath, "resident") << n;
@@ -232,7 +157,7 @@ TEST(GlPath, TheRule) {
     EXPECT_EQ(parseGlPath("resident"), GlPath::Resident);
     EXPECT_THROW(parseGlPath("fast"), std::runtime_error);
     const Scene scene = sceneOf(boxMesh(4, waves), smoothFunction(0.1, 0.9));
-    const Picture picture = pictureOf(*engineOf(scene, "auto", "osmesa"), views()[0]);  // always software
+    const PathPicture picture = pictureOf(*engineOf(scene, "auto", "osmesa"), views()[0]);  // always software
     EXPECT_EQ(picture.report.dataPath, "stream");
     EXPECT_EQ(picture.report.dataPathReason, "software renderer");
 }

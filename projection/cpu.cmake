@@ -9,6 +9,7 @@ target_sources(tetralux_projection PRIVATE
   cpu_limited_kernel.cpp
   cpu_limits.cpp
   cpu_order.cpp
+  cpu_quick_look.cpp
   cpu_special_cell.cpp
   cpu_tile_kernel.cpp
   cpu_transfer.cpp

@@ -26,6 +26,7 @@
 #include <projection/cpu_cull.h>
 #include <projection/cpu_limits.h>
 #include <projection/cpu_order.h>
+#include <projection/cpu_quick_look.h>
 #include <projection/cpu_tile.h>
 #include <projection/edge_on_planes.h>
 #include <projection/ray_nearness.h>
@@ -56,28 +57,6 @@ constexpr double leastShareForBits = 0.8;
 
 /// Counts per chunk and tile are kept below this, and chunks above a size that is worth a task.
 constexpr std::size_t mostPlaces = std::size_t{1} << 20, leastChunk = 4096, usualChunk = 16384;
-
-/// Largest whole exponent that is taken by squaring: rounding stays below 1e-4.
-constexpr double largestWholeExponent = 1024;
-
-QuickLook quickLook(const shading::ShadingSettings& shading, const std::vector<std::array<float, 3>>& lights) {
-    QuickLook quick;
-    if (!shading.plain() || shading.gradientOpacity > 0 || shading.approximateSilhouette ||
-        lights.size() > QuickLook::mostLights)
-        return quick;
-    quick.look = lights.empty() ? Look::Silhouettes : Look::Lit;
-    quick.silhouettes = shading.silhouette;
-    quick.transmission = shading.transmission;
-    quick.lights = lights.size();
-    for (std::size_t i = 0; i < lights.size(); ++i) std::copy_n(lights[i].begin(), 3, quick.towards[i]);
-    quick.ambient = static_cast<float>(shading.ambient);
-    quick.exponent = static_cast<float>(shading.exponent);
-    const double whole = std::round(shading.exponent);
-    if (whole == shading.exponent && whole >= 1 && whole <= largestWholeExponent)
-        quick.wholeExponent = static_cast<unsigned>(whole);
-    if (shading.exponent > 0) quick.leastCosine = static_cast<float>(std::pow(1e-8, 1 / shading.exponent));
-    return quick;
-}
 
 /// What preparing took and freed goes back to the system: the frames' lists would lie beside it.
 void returnFreedMemory() {
@@ -228,7 +207,7 @@ void CpuEngine::prepare() {
     vertexLight_ = vertexLightOf(scene_);
     frame_.shading = &shading;
     frame_.lightInFull = shading.lit() && !shading.plain();
-    frame_.attributes = frame_.lightInFull || vertexLight_->sampleAt >= 0;
+    frame_.attributes = (frame_.lightInFull && vertexLight_->any()) || vertexLight_->sampleAt >= 0;
     frame_.lightModel = lightModelFloats(shading);
     frame_.vertexLight = vertexLight_.get();
     frame_.earlyTermination = skips_.earlyTermination && scene_.settings.earlyTermination;
@@ -295,7 +274,7 @@ void CpuEngine::setFrame() {
                                  static_cast<float>(-glm::dot(towards, frame.up)),
                                  static_cast<float>(glm::dot(towards, frame.forward))});
     }
-    if (skips_.quickLooks) frame_.look = quickLook(shading, frame_.lights);
+    if (skips_.quickLooks) frame_.look = quickLook(shading, frame_);
 }
 
 /// The pixel maps as nearness along rays, and whether the frame needs the kernel that honours them.

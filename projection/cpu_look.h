@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Silhouettes and light as most scenes ask for them: Kraus 2005, Equations 15 and 17, and Equation 19 with plain
-/// lights (ShadingSettings::plain). The same numbers as shading/cell_shading.glsl, rearranged so that a block of pixels
-/// finds only what changes from pixel to pixel. Included once per instruction set.
+/// Silhouettes and light as most scenes ask for them: Kraus 2005, Equations 15 and 17, and Equation 19. The same
+/// numbers as shading/cell_shading.glsl, rearranged so that a block of pixels finds only what changes from pixel to
+/// pixel. Included once per instruction set.
 ///
 /// - 1/|n·d| of Equation 15 is |g|·|z_c|·|ray per depth|/|scalarFall|, where all but the last two belong to the cell.
-/// - A segment's light is C·A + α·B, where A gathers ambient and diffuse and B specular light. A lobe about the
-/// reflected
-///   direction r = 2n(n·l) − l or about −l is looked at along v = −d, so that it is a product of the pixel's ray with
-///   one of two directions that the cell knows.
+/// - A segment's light is C·A + α·B (cpu_lamps.h).
 #include <projection/cpu_segment.h>
 
 #include <cmath>
 
+#include <projection/cpu_lamps.h>
+#include <projection/cpu_peak_look.h>
 #include <projection/cpu_special_cell.h>
 #include <projection/cpu_tile.h>
 
@@ -25,96 +24,6 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace tetralux::projection::HWY_NAMESPACE {
-
-/// What a look needs of one cell.
-struct CellLook {
-    float gradient;                          ///< |g|, scene scalars per scene length
-    float steepness;                         ///< |g|·|z_c|
-    float lightSide[QuickLook::mostLights];  ///< n·l
-    /// −r, (right, down, forward): its product with the pixel's unit direction is r·v.
-    float reflected[QuickLook::mostLights][3];
-};
-
-template <bool Lit>
-HWY_INLINE void setLook(const QuickLook& look, const CellBatch& batch, std::size_t j, CellLook& cell) {
-    cell.gradient = batch.gradient[j];
-    cell.steepness = batch.gradient[j] * std::abs(batch.scale[j]);
-    if constexpr (!Lit) return;
-    const float n[3] = {batch.normal[0][j], batch.normal[1][j], batch.normal[2][j]};
-    for (std::size_t i = 0; i < look.lights; ++i) {
-        const auto& light = look.towards[i];
-        const float side = n[0] * light[0] + n[1] * light[1] + n[2] * light[2];
-        cell.lightSide[i] = side;
-        for (std::size_t axis = 0; axis < 3; ++axis) cell.reflected[i][axis] = light[axis] - 2 * side * n[axis];
-    }
-}
-
-/// What a look needs of a block's pixels.
-struct BlockLook {
-    real fall;           ///< scalarFall: its sign is that of s_f − s_b, which is that of v·n
-    real rayLength;      ///< per unit depth
-    real inverse, x, y;  ///< unit direction of a ray: inverse·(x, y, 1), (right, down, forward)
-};
-
-/// For a ≥ 0. Whole exponents by squaring.
-HWY_INLINE real lobeOf(const QuickLook& look, real cosine) {
-    if (none(cosine > real(look.leastCosine))) return real(0.0f);
-    const real base = max(cosine, real(0.0f));
-    if (HWY_UNLIKELY(look.wholeExponent == 0))
-        return exp(real(look.exponent) * real(hn::Log(FloatTag(), max(base, real(1e-30f)).v)));
-    real power(1.0f), square = base;
-    for (unsigned rest = look.wholeExponent;;) {
-        if (rest & 1u) power = power * square;
-        if ((rest >>= 1) == 0) return power;
-        square = square * square;
-    }
-}
-
-template <bool Orthographic>
-HWY_INLINE real cosineTo(const float (&direction)[3], const BlockLook& block) {
-    if constexpr (Orthographic) return real(direction[2]);
-    return block.inverse * (real(direction[0]) * block.x + (real(direction[1]) * block.y + real(direction[2])));
-}
-
-/// A and B of the segment's light.
-struct LightShares {
-    real color, white;
-};
-
-template <bool Orthographic>
-HWY_INLINE LightShares lightShares(const QuickLook& look, const CellLook& cell, const BlockLook& block, mask live,
-                                   real opacity) {
-    LightShares shares{real(look.ambient), real(0.0f)};
-    const real zero(0.0f), through = look.transmission ? real(1.0f) - opacity : zero;
-    for (std::size_t i = 0; i < look.lights; ++i) {
-        const real facing = block.fall * real(cell.lightSide[i]), amount(std::abs(cell.lightSide[i]));
-        const mask reflects = both(live, facing > zero), transmits = both(live, facing < zero);
-        if (!none(reflects)) {
-            shares.color += keep(reflects, amount);
-            shares.white =
-                shares.white + keep(reflects, lobeOf(look, cosineTo<Orthographic>(cell.reflected[i], block)));
-        }
-        if (look.transmission && !none(transmits)) {
-            const real weight = keep(transmits, through);
-            shares.color += weight * amount;
-            shares.white += weight * lobeOf(look, cosineTo<Orthographic>(look.towards[i], block));
-        }
-    }
-    return shares;
-}
-
-/// exp(−depth), 0 ≤ depth ≤ 80: 2ⁿ·2ᶠ with a polynomial for |f| ≤ 1/2. Exactly 1 at 0, relative error 2e-7·max(1,
-/// depth).
-HWY_INLINE real fadeOf(real depth) {
-    const real power = depth * real(-1.44269504f), whole = hn::Round(power.v), f = power - whole;
-    real p = real(0.00132647227) * f + real(0.00967151299);
-    p = p * f + real(0.0555073358);
-    p = p * f + real(0.240222424);
-    p = p * f + real(0.693147004);
-    p = p * f + real(1.0f);
-    const auto exponent = hn::ShiftLeft<23>(hn::ConvertTo(IntTag(), whole.v));
-    return hn::BitCast(FloatTag(), hn::Add(hn::BitCast(IntTag(), p.v), exponent));
-}
 
 /// 1 − exp(−depth).
 HWY_INLINE real anyOpacity(real depth) {
@@ -129,20 +38,25 @@ HWY_INLINE real silhouetteFactor(const CellLook& cell, const BlockLook& block) {
 }
 
 /// Segments of one block with a look, composited into `sink`.
-template <bool Lit, bool Orthographic, bool ScaleInvariant, bool Peaks>
+template <Look look, bool Orthographic, bool ScaleInvariant, bool Peaks, CellShows shows>
 struct LookedSegments {
+    static constexpr bool Lit = look != Look::Silhouettes;
     const TileFrame& frame;
+    const PeakLooks& peaks;
     const CellLook& cell;
     const BlockLook& block;
     const Segments& segments;
 
-    HWY_INLINE bool silhouettes() const { return (!Lit || frame.look.silhouettes) && cell.gradient > 0; }
+    HWY_INLINE bool silhouettes() const {
+        return shows == CellShows::NarrowPeak || ((!Lit || frame.look.silhouettes) && cell.gradient > 0);
+    }
 
     HWY_INLINE void add(std::size_t first, std::size_t last, ColorSink& sink) const {
+        if constexpr (shows == CellShows::NarrowPeak) return addOnlyPeak(*peaks.peak[cell.j], sink);
         const CpuTransfer& transfer = *frame.transfer;
         if (first == last && (!transfer.pieces()[first].visible || addThin(transfer.pieces()[first], sink))) return;
         if constexpr (Peaks) {
-            if (const TransferPeak* peak = onlyPeak(transfer, first, last)) return addOnlyPeak(*peak, sink);
+            if (const TransferPeak* peak = peaks.peak[cell.j]) return addOnlyPeak(*peak, sink);
         }
         SegmentSink whole;
         whole.begin();
@@ -179,12 +93,14 @@ private:
     }
 
     HWY_INLINE void addLit(const TransferPiece& piece, real opacity, real weighted, ColorSink& sink) const {
-        const LightShares light = lightShares<Orthographic>(frame.look, cell, block, segments.live, opacity);
-        const real ta = sink.t * opacity, white = ta * light.white, color = ta * light.color,
-                   tq = sink.t * weighted * light.color;
-        sink.r += real(piece.color[0]) * color + (real(piece.colorSlope[0]) * tq + white);
-        sink.g += real(piece.color[1]) * color + (real(piece.colorSlope[1]) * tq + white);
-        sink.b += real(piece.color[2]) * color + (real(piece.colorSlope[2]) * tq + white);
+        const auto light = lightShares<look, Orthographic>(frame.look, cell, block, segments.live, opacity);
+        const real ta = sink.t * opacity, tq = sink.t * weighted;
+        const auto channel = [&](std::size_t c, real& sum) HWY_ATTR {
+            sum += (real(piece.color[c]) * ta + real(piece.colorSlope[c]) * tq) * light.color(c) + ta * light.white(c);
+        };
+        channel(0, sink.r);
+        channel(1, sink.g);
+        channel(2, sink.b);
         sink.t = sink.t - ta;
     }
 
@@ -193,19 +109,24 @@ private:
         if (Lit && none(hits)) return;
         real opacity(peak.opacity);
         if (silhouettes()) {
-            const real depth = real(peak.depth) * silhouetteFactor(cell, block);
-            opacity = real(1.0f) - fadeOf(min(depth, real(80.0f)));
+            if (shows == CellShows::NarrowPeak || peaks.narrow(cell.j)) {
+                opacity = peaks.opacity(cell.j, block.fall * block.inverse);
+            } else {
+                const real depth = real(peak.depth) * silhouetteFactor(cell, block);
+                opacity = real(1.0f) - fadeOf(min(depth, real(80.0f)));
+            }
         }
         const real ta = keep(hits, sink.t * opacity);
-        real color = ta, white(0.0f);
         if constexpr (Lit) {
-            const LightShares light = lightShares<Orthographic>(frame.look, cell, block, hits, opacity);
-            color = ta * light.color;
-            white = ta * light.white;
+            const auto light = lightShares<look, Orthographic>(frame.look, cell, block, hits, opacity);
+            sink.r += ta * (real(peak.color[0]) * light.color(0) + light.white(0));
+            sink.g += ta * (real(peak.color[1]) * light.color(1) + light.white(1));
+            sink.b += ta * (real(peak.color[2]) * light.color(2) + light.white(2));
+        } else {
+            sink.r += real(peak.color[0]) * ta;
+            sink.g += real(peak.color[1]) * ta;
+            sink.b += real(peak.color[2]) * ta;
         }
-        sink.r += real(peak.color[0]) * color + white;
-        sink.g += real(peak.color[1]) * color + white;
-        sink.b += real(peak.color[2]) * color + white;
         sink.t = sink.t - ta;
     }
 
@@ -228,15 +149,16 @@ private:
             share = share * (opacity * reciprocal(thin));
         }
         const real ta = sink.t * opacity;
-        real white(0.0f);
         if constexpr (Lit) {
-            const LightShares light = lightShares<Orthographic>(frame.look, cell, block, segments.live, opacity);
-            share = share * light.color;
-            white = ta * light.white;
+            const auto light = lightShares<look, Orthographic>(frame.look, cell, block, segments.live, opacity);
+            sink.r += whole.r * share * light.color(0) + ta * light.white(0);
+            sink.g += whole.g * share * light.color(1) + ta * light.white(1);
+            sink.b += whole.b * share * light.color(2) + ta * light.white(2);
+        } else {
+            sink.r += whole.r * share;
+            sink.g += whole.g * share;
+            sink.b += whole.b * share;
         }
-        sink.r += whole.r * share + white;
-        sink.g += whole.g * share + white;
-        sink.b += whole.b * share + white;
         sink.t = sink.t - ta;
     }
 };

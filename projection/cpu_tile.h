@@ -58,7 +58,17 @@ struct TileLimits {
 enum class Look {
     General,      ///< anything (cpu_shading.h)
     Silhouettes,  ///< silhouettes alone; this and the next by cpu_look.h
-    Lit           ///< plain lights, with silhouettes or without
+    Lit,          ///< plain lights, with silhouettes or without
+    Lamps         ///< the same with lights at places, at the eye or of colour, and Blinn and Phong's highlights
+};
+
+/// A light as the quick looks need it.
+struct QuickLamp {
+    int kind = 0;         ///< FrameLight's
+    float place[3] = {};  ///< towards it, or where it is, scene lengths from the eye: (right, down, forward)
+    float color[3] = {1, 1, 1}, specular[3] = {1, 1, 1};  ///< of diffuse and of specular light
+    bool fades = false;                                   ///< with the distance: FrameLight's fade
+    float fade[3] = {1, 0, 0};
 };
 
 /// What the quick looks need of a frame.
@@ -67,10 +77,14 @@ struct QuickLook {
     Look look = Look::General;
     bool silhouettes = false, transmission = false;
     std::size_t lights = 0;
-    float towards[mostLights][3] = {};  ///< each light, as (right, down, forward)
-    float ambient = 0, exponent = 0;
+    QuickLamp lamps[mostLights];
+    float ambient[3] = {}, exponent = 0;
     unsigned wholeExponent = 0;  ///< the exponent, when it is a whole number that squaring makes; else 0
     float leastCosine = 0;       ///< below it a lobe is less than 1e-8
+    // of Look::Lamps
+    bool halfway = false;  ///< lobes about the half-way vector
+    bool places = false;   ///< some lamp asks where the segments are
+    float diffuse = 1, specular = 1, diffuseThrough = 1, specularThrough = 1;
 };
 
 /// The same for all tiles of one frame.

@@ -3,6 +3,7 @@
 /// What the tile kernels gather per pixel, and the picture that it makes; the same for every instruction set.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -18,13 +19,19 @@ constexpr int columns = cpuTileSize / columnWidth;
 constexpr int paddedRows = cpuTileSize + 4;  // a block may begin in the last row
 constexpr std::size_t tilePixels = static_cast<std::size_t>(columns) * paddedRows * columnWidth;
 
+/// Of a pixel, counted from the tile's first.
+inline std::size_t placeInTile(int x, int y) {
+    return static_cast<std::size_t>(((x / columnWidth) * paddedRows + y) * columnWidth + x % columnWidth);
+}
+
 /// Accumulators of a tile. What they hold depends on the kind:
 ///   Composite, Shaded: premultiplied colour r g b, transmittance t, nearness `last` at which the last segment ended,
 ///   and its scalar FirstHit: colour of the hit, t = 1 until then Absorption: depth in t      Mip: largest scalar in t
 ///   Average: Σ scalar·length in r, Σ length in t
 struct TileBuffers {
     alignas(64) float r[tilePixels], g[tilePixels], b[tilePixels], t[tilePixels], last[tilePixels],
-        lastScalar[tilePixels], rayLength[tilePixels];
+        lastScalar[tilePixels], rayLength[tilePixels],
+        inverseLength[tilePixels];  // the last where looks need it
 };
 
 /// Faces of a cell, those that bound rho from above first.
@@ -76,6 +83,22 @@ glm::vec4 finishedPixel(const TileFrame& frame, const TileBuffers& px, std::size
         const float s = extreme ? px.t[i] : px.r[i] / px.t[i];
         return met ? glm::vec4(glm::vec3(frame.transfer->colorAt(s)), 1.0f) : glm::vec4(0.0f);
     }
+}
+
+/// Writes the tile's pixels, and tells which of them were drawn out of order if that was `checked`.
+template <TileKind Kind>
+void resolveTile(const TileFrame& frame, const TileBuffers& px, int x0, int y0, bool checked, Image& image,
+                 TileResult& result) {
+    const int width = std::min(cpuTileSize, frame.width - x0), height = std::min(cpuTileSize, frame.height - y0);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const std::size_t i = placeInTile(x, y);
+            image.at(x0 + x, y0 + y) = finishedPixel<Kind>(frame, px, i);
+            if (checked && px.last[i] == doubtful)
+                result.doubtfulPixels.push_back(static_cast<std::uint32_t>(y0 + y) *
+                                                    static_cast<std::uint32_t>(frame.width) +
+                                                static_cast<std::uint32_t>(x0 + x));
+        }
 }
 
 }  // namespace tetralux::projection

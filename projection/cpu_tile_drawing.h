@@ -53,6 +53,7 @@ public:
                 __builtin_prefetch(&frame_.cells[entries[k].cell]);
             const std::size_t cells = setUpBatch<Orthographic, gradients>(frame_, x0_, y0_, entries.subspan(i), batch_);
             result_.cellsSetUp += cells;
+            if constexpr (looksAtPeaks) lookAtPeaks<Orthographic>(frame_, batch_, cells, rays_, peakLooks_);
             for (std::size_t j = 0; j < cells; ++j) drawCell(j);
             if (frame_.earlyTermination && ++sinceCheck == 8) {
                 sinceCheck = 0;
@@ -64,29 +65,29 @@ public:
         }
     }
 
-    void resolve(Image& image) const;
+    void resolve(Image& image) const {
+        resolveTile<Kind>(frame_, px_, x0_, y0_, (colors || Kind == TileKind::Depth) && frame_.ordered, image, result_);
+    }
 
 private:
     static constexpr bool colors =
         Kind == TileKind::Composite || Kind == TileKind::Shaded || Kind == TileKind::FirstHit;
     static constexpr bool integrates = colors || Kind == TileKind::Absorption || Kind == TileKind::Additive ||
                                        Kind == TileKind::Depth || Kind == TileKind::Contribution;
-    static constexpr bool usesNormals = look == Look::Lit || Kind == TileKind::Shaded || Kind == TileKind::FirstHit ||
-                                        Kind == TileKind::Additive || (Limited && Kind == TileKind::Absorption);
+    static constexpr bool usesNormals = look == Look::Lit || look == Look::Lamps || Kind == TileKind::Shaded ||
+                                        Kind == TileKind::FirstHit || Kind == TileKind::Additive ||
+                                        (Limited && Kind == TileKind::Absorption);
     static constexpr GradientParts gradients = usesNormals                 ? GradientParts::All
                                                : look == Look::Silhouettes ? GradientParts::Magnitude
                                                                            : GradientParts::None;
+    static constexpr bool looksAtPeaks = look != Look::General && Peaks;
     static constexpr int rows = static_cast<int>(laneCount()) / columnWidth;
-
-    static std::size_t indexOf(int x, int y) {
-        return static_cast<std::size_t>(((x / columnWidth) * paddedRows + y) * columnWidth + x % columnWidth);
-    }
 
     void clear() {
         if constexpr (Limited) limits_.clear();
         for (int x = 0; x < cpuTileSize; ++x)
             for (int y = 0; y < paddedRows; ++y) {
-                const std::size_t i = indexOf(x, y);
+                const std::size_t i = placeInTile(x, y);
                 const bool inside = y < cpuTileSize && x0_ + x < frame_.width && y0_ + y < frame_.height;
                 px_.r[i] = px_.g[i] = px_.b[i] = 0;
                 if constexpr (colors || Kind == TileKind::Depth)
@@ -109,6 +110,7 @@ private:
                     Orthographic ? 1.0f
                                  : static_cast<float>(std::sqrt(1 + frame_.pixel * frame_.pixel * (dx * dx + dy * dy)));
             }
+        if constexpr (look != Look::General) rays_ = inverseRayLengths(px_);
     }
 
     bool finished() const {
@@ -134,28 +136,32 @@ private:
         if (xBegin >= x1 || yBegin >= y1) return;
         const FaceOrder& order = faceOrders[batch_.frontMask[j]];
         std::size_t first = 0, last = 0;
-        if constexpr (integrates) {
-            const CpuTransfer& transfer = *frame_.transfer;
-            if constexpr (Peaks) {  // a neighbour's end of a segment may lie beyond by rounding
-                first = transfer.pieceFromAbove(batch_.scalarLow[j] - scalarRounding);
-                last = transfer.pieceFromAbove(batch_.scalarHigh[j] + scalarRounding);
-            } else {
-                first = transfer.pieceFromAbove(batch_.scalarLow[j]);
-                last = std::max(first, transfer.pieceFromBelow(batch_.scalarHigh[j]));
-            }
+        if constexpr (looksAtPeaks) {
+            first = peakLooks_.first[j];
+            last = peakLooks_.last[j];
+        } else if constexpr (integrates) {
+            findPieces<Peaks>(*frame_.transfer, batch_, j, first, last);
         }
-        if constexpr (look != Look::General) setLook<look == Look::Lit>(frame_.look, batch_, j, look_);
-        for (int x = xBegin; x < x1; x += columnWidth) {
-            const real dx = laneX_ + real(batch_.offsetX[j] + static_cast<float>(x));
-            for (int y = yBegin; y < y1; y += rows) {
-                const real dy = laneY_ + real(batch_.offsetY[j] + static_cast<float>(y));
-                real in, out;
-                cellInterval(batch_, j, order, dx, dy, in, out);
-                drawBlock(j, indexOf(x, y), x, y, dx, dy, in, out, first, last);
+        if constexpr (look != Look::General) setLook<look>(frame_.look, batch_, j, look_);
+        const auto drawBlocks = [&]<CellShows shows>() HWY_ATTR {
+            for (int x = xBegin; x < x1; x += columnWidth) {
+                const real dx = laneX_ + real(batch_.offsetX[j] + static_cast<float>(x));
+                for (int y = yBegin; y < y1; y += rows) {
+                    const real dy = laneY_ + real(batch_.offsetY[j] + static_cast<float>(y));
+                    real in, out;
+                    cellInterval(batch_, j, order, dx, dy, in, out);
+                    drawBlock<shows>(j, placeInTile(x, y), x, y, dx, dy, in, out, first, last);
+                }
             }
+        };
+        if constexpr (looksAtPeaks && look == Look::Silhouettes) {
+            if (HWY_LIKELY(peakLooks_.peak[j] != nullptr && look_.gradient > 0 && peakLooks_.narrow(j)))
+                return drawBlocks.template operator()<CellShows::NarrowPeak>();
         }
+        drawBlocks.template operator()<CellShows::Anything>();
     }
 
+    template <CellShows shows>
     HWY_INLINE void drawBlock(std::size_t j, std::size_t at, int x, int y, real dx, real dy, real in, real out,
                               std::size_t first, std::size_t last) {
         [[maybe_unused]] mask cut = in < in;
@@ -197,7 +203,7 @@ private:
             if constexpr (look == Look::General)
                 integrate(first, last, segments, sink);
             else
-                integrateLooked({j, at, x, y, dx, dy, in, out, rayLength, cut}, first, last, segments, sink);
+                integrateLooked<shows>({j, at, x, y, dx, dy, in, out, rayLength, cut}, first, last, segments, sink);
             storeAt(sink.r, px_.r + at);
             storeAt(sink.g, px_.g + at);
             storeAt(sink.b, px_.b + at);
@@ -217,8 +223,8 @@ private:
         } else if constexpr (Kind == TileKind::Contribution) {
             ContributionSink sink{real(0.0f), real(0.0f)};
             integrateScaled(first, last, segments, real(1.0f), sink);
-            const mask shows = both(live, max(sink.depth, sink.peaks) > real(0.0f));
-            storeAt(loadAt(px_.r + at) + keep(shows, real(1.0f)), px_.r + at);
+            const mask met = both(live, max(sink.depth, sink.peaks) > real(0.0f));
+            storeAt(loadAt(px_.r + at) + keep(met, real(1.0f)), px_.r + at);
             storeAt(t + sink.depth, px_.t + at);
         } else if constexpr (Kind == TileKind::Mip) {
             storeAt(select(live, max(t, max(segments.front, segments.back)), t), px_.t + at);
@@ -253,19 +259,25 @@ private:
         [[maybe_unused]] mask cut;  ///< where a limit cuts the front
     };
 
+    template <CellShows shows>
     HWY_INLINE void integrateLooked(const Block& block, std::size_t first, std::size_t last, const Segments& segments,
                                     ColorSink& sink) const {
         BlockLook pixels;
         pixels.fall = fallOf(block);
         pixels.rayLength = block.rayLength;
-        if constexpr (look == Look::Lit && !Orthographic) {
+        pixels.inverse = loadAt(px_.inverseLength + block.at);
+        if constexpr (look != Look::Silhouettes && !Orthographic) {
             const real pixel(frame_.pixel);
-            pixels.inverse = reciprocal(block.rayLength);
             pixels.x = pixel * laneX_ + real(frame_.pixel * (x0_ + block.x - frame_.centre.x));
             pixels.y = pixel * laneY_ + real(frame_.pixel * (y0_ + block.y - frame_.centre.y));
         }
-        LookedSegments<look == Look::Lit, Orthographic, ScaleInvariant, Peaks>{frame_, look_, pixels, segments}.add(
-            first, last, sink);
+        if constexpr (look == Look::Lamps) {
+            if (frame_.look.places)
+                pixels.place = middlePlace(block, Orthographic ? vec3(real(0.0f), real(0.0f), real(1.0f))
+                                                               : pixels.inverse * vec3(pixels.x, pixels.y, real(1.0f)));
+        }
+        LookedSegments<look, Orthographic, ScaleInvariant, Peaks, shows>{frame_, peakLooks_, look_, pixels, segments}
+            .add(first, last, sink);
     }
 
     HWY_INLINE real fallOf(const Block& block) const {
@@ -456,33 +468,18 @@ private:
         storeAt(select(live, select(early, real(doubtful), end), last), px_.last + at);
     }
 
-    static constexpr float scalarRounding = 2e-6f;
-
     const TileFrame& frame_;
     const int x0_, y0_;
     TileResult& result_;
     real laneX_, laneY_;
     CellBatch batch_;
     CellLook look_;
+    PeakLooks peakLooks_;
+    TileRays rays_;
     TileBuffers px_;
     struct NoLimits {};
     std::conditional_t<Limited, LimitBuffers<tilePixels>, NoLimits> limits_;
 };
-
-template <TileKind Kind, bool Orthographic, bool ScaleInvariant, bool Peaks, bool Limited, Look look>
-void TileDrawing<Kind, Orthographic, ScaleInvariant, Peaks, Limited, look>::resolve(Image& image) const {
-    const int width = std::min(cpuTileSize, frame_.width - x0_), height = std::min(cpuTileSize, frame_.height - y0_);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const std::size_t i = indexOf(x, y);
-            glm::vec4& pixel = image.at(x0_ + x, y0_ + y);
-            pixel = finishedPixel<Kind>(frame_, px_, i);
-            if ((colors || Kind == TileKind::Depth) && frame_.ordered && px_.last[i] == doubtful)
-                result_.doubtfulPixels.push_back(static_cast<std::uint32_t>(y0_ + y) *
-                                                     static_cast<std::uint32_t>(frame_.width) +
-                                                 static_cast<std::uint32_t>(x0_ + x));
-        }
-}
 
 template <TileKind Kind, bool Orthographic, bool ScaleInvariant, bool Peaks, bool Limited = false,
           Look look = Look::General>

@@ -37,6 +37,8 @@ void drawShadedTile(const TileFrame& frame, int x0, int y0, std::span<const Tile
                                                                                    result);
         case Look::Lit:
             return drawLookedTile<Orthographic, ScaleInvariant, Look::Lit>(frame, x0, y0, entries, image, result);
+        case Look::Lamps:
+            return drawLookedTile<Orthographic, ScaleInvariant, Look::Lamps>(frame, x0, y0, entries, image, result);
     }
 }
 

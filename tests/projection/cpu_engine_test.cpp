@@ -240,6 +240,75 @@ TEST(CpuEngine, QuickLooksAreTheGeneralOnes) {
     }
 }
 
+/// Point, head and coloured lights within and around the unit cube, attenuated and not, and a material of its own.
+void setLamps(int which, bool halfway, const glm::dvec3& centre, shading::ShadingSettings& shading) {
+    using shading::Light;
+    Light point, near, head, colored;
+    point.kind = near.kind = Light::Kind::Point;
+    point.position = centre + glm::dvec3(0.9, 1.1, 0.8);
+    near.position = centre;  // a vertex of some meshes: all around it is lit from there
+    near.color = {0.5, 0.8, 1.0};
+    near.attenuation = {0.8, 0.5, 2.0};
+    head.kind = Light::Kind::Head;
+    colored.towards = glm::normalize(glm::dvec3(-0.3, 0.6, -0.7));
+    colored.color = {1.0, 0.7, 0.3};
+    if (which == 0) shading.lights = {head};
+    if (which == 1) shading.lights = {point};
+    if (which == 2) {
+        head.attenuation = {0.5, 0.1, 0.05};
+        shading.lights = {colored, near, head};
+        shading.ambientColor = {0.4, 1.0, 0.7};
+        shading.material.diffuse = 0.8;
+        shading.material.specularTransmission = 0.6;
+        shading.material.front = shading.material.back = {{1.0, 0.9, 0.4}, 20.0};
+    }
+    shading.reflectance = halfway ? shading::Reflectance::BlinnPhong : shading::Reflectance::Phong;
+    if (halfway && which == 0) shading.lights.push_back({glm::normalize(glm::dvec3(0.4, 0.8, 0.6))});
+}
+
+TEST(CpuEngine, LampsAreTheGeneralLight) {
+    for (int what = 0; what < 48; ++what) {
+        Scene scene = fieldScene("bucky", (what & 1) != 0 ? "peaks" : "smooth",
+                                 (what & 2) != 0 ? Mode::Standard : Mode::ScaleInvariant);
+        auto& shading = scene.settings.shading;
+        setLamps(what / 16, (what & 4) != 0, scene.mesh->bounds.centre(), shading);
+        shading.silhouette = (what & 4) == 0;
+        shading.exponent = (what & 4) != 0 ? 12.5 : 32.0;
+        Camera camera = wholeView(*scene.mesh);
+        if ((what & 8) != 0) camera.orthographicHeight = 1.6 * scene.mesh->bounds.diagonal();
+        const ImageDifference difference =
+            compareImages(cpuImage(scene, camera), cpuImage(scene, camera, {.quickLooks = false}));
+        EXPECT_LE(difference.rmse, lookThreshold.rmse) << what;
+        EXPECT_LE(difference.max, lookThreshold.max) << what;
+        EXPECT_GT(difference.max, 0.0) << what << ": the same kernel drew both";
+    }
+}
+
+// Cells of a hundred pixels, seen from near by: where the polynomial for an isosurface's opacity over a cell
+// (cpu_peak_look.h) would not hold, something else must be taken.
+TEST(CpuEngine, SilhouettesOfIsosurfacesInWideCells) {
+    for (int n : {3, 5, 9})
+        for (double opacity : {0.02, 0.6, 1.0}) {
+            Scene scene = sceneOf(
+                jitteredBoxMesh(n, 0.2, 7,
+                                [](const glm::dvec3& p) { return glm::dot(p - glm::dvec3(0.5), p - glm::dvec3(0.5)); }),
+                constantFunction(0.0), Mode::ScaleInvariant);
+            scene.transferFunction.isosurfaces = {{0.09, opacity, {1, 0.4, 0.1}}, {0.3, 0.3 * opacity, {0, 0.4, 1}}};
+            scene.settings.shading.silhouette = true;
+            for (double fov : {30.0, 100.0}) {
+                Camera camera = cameraAt({1.2, 0.9, 1.1});
+                camera.width = camera.height = 160;
+                camera.fovDegrees = fov;
+                // not the reference: whether float meets a surface in this cell or its neighbour, a thousandth of its
+                // slope apart, decides single pixels
+                const ImageDifference difference =
+                    compareImages(cpuImage(scene, camera), cpuImage(scene, camera, {.quickLooks = false}));
+                EXPECT_LE(difference.max, 4e-6) << n << ' ' << opacity << ' ' << fov;
+                EXPECT_GT(difference.max, 0.0) << n << ": the same kernel drew both";
+            }
+        }
+}
+
 TEST(CpuEngine, RandomMeshesNeedNoCertificate) {
     for (unsigned seed = 1; seed <= 4; ++seed) {
         const auto holed = carved(jitteredBoxMesh(7, 0.25, seed, ramp), [](const glm::dvec3& p) {

@@ -116,7 +116,7 @@ void addLightOptions(CLI::App& command, shading::ShadingSettings& settings) {
         ->type_name("KEY=VALUE,...");
     command.add_flag("--specular-by-gradient", settings.material.specularByGradient,
                      "highlights as strong as the gradient of extinction: only where it rises do things shine");
-    command.add_flag("--shadows", settings.shadows.on, "the volume casts shadows");
+    command.add_flag("--shadows", settings.shadows.on, "volume and surfaces cast shadows");
     command.add_option_function<double>(
         "--soft-shadows",
         [&settings](double radius) {

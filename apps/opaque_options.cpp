@@ -24,6 +24,13 @@ projection::Slice parseSlice(const std::string& text) {
     return {{v[0], v[1], v[2]}, normal / largest};
 }
 
+double parseOpacity(const std::string& text) {
+    const double opacity = parseNumbers("--slice-opacity", text, 1, "a number from 0 to 1").front();
+    if (!(opacity >= 0.0 && opacity <= 1.0))
+        throw std::runtime_error(fmt::format("--slice-opacity: {} will not do; give a number from 0 to 1", text));
+    return opacity;
+}
+
 /// An option that may be given several times; each text is handed to `take`.
 void addRepeated(CLI::App& command, const std::string& name, const std::string& form, const std::string& help,
                  const std::function<void(const std::string&)>& take) {
@@ -42,8 +49,10 @@ void addRepeated(CLI::App& command, const std::string& name, const std::string& 
 
 void addOpaqueOptions(CLI::App& command, OpaqueOptions& options) {
     addRepeated(command, "--slice", "px,py,pz,nx,ny,nz",
-                "opaque slice through a point with a normal; may be given several times",
+                "slice through a point with a normal, opaque if nothing is said; may be given several times",
                 [&options](const std::string& text) { options.slices.push_back(parseSlice(text)); });
+    addRepeated(command, "--slice-opacity", "A", "how much a slice hides, from 0 to 1; one for all or one for each",
+                [&options](const std::string& text) { options.sliceOpacities.push_back(parseOpacity(text)); });
     addRepeated(command, "--surface", "FILE",
                 "opaque surface in the volume (.stl .obj .ply .off .vtp .vtk); may be given several times",
                 [&options](const std::string& text) { options.surfaces.push_back(text); });
@@ -58,8 +67,14 @@ projection::OpaqueObjects readOpaqueObjects(const OpaqueOptions& options) {
     if (colors > 1 && colors != surfaces)
         throw std::runtime_error(
             fmt::format("--surface-color: {} colours for {} surfaces; give one, or one for each", colors, surfaces));
+    const std::size_t opacities = options.sliceOpacities.size(), slices = options.slices.size();
+    if (opacities > 0 && opacities != slices && (opacities > 1 || slices == 0))
+        throw std::runtime_error(
+            fmt::format("--slice-opacity: {} for {} slices; give one, or one for each --slice", opacities, slices));
     projection::OpaqueObjects objects;
     objects.slices = options.slices;
+    for (std::size_t i = 0; i < slices && opacities > 0; ++i)
+        objects.slices[i].opacity = options.sliceOpacities[opacities > 1 ? i : 0];
     for (std::size_t i = 0; i < surfaces; ++i) {
         projection::OpaqueSurface surface;
         surface.mesh = std::make_shared<const mesh::SurfaceMesh>(mesh::readSurface(options.surfaces[i]));

@@ -18,6 +18,7 @@ namespace tetralux::apps {
 
 struct OpaqueOptions {
     std::vector<projection::Slice> slices;
+    std::vector<double> sliceOpacities;     ///< none, one for all, or one for each
     std::vector<std::string> surfaces;      ///< files
     std::vector<glm::dvec3> surfaceColors;  ///< none, one for all, or one for each
     bool flat = false;                      ///< surfaces without light

@@ -180,6 +180,7 @@ void SceneRenderer::readScene(const RenderOptions& options) {
     // limits come first: they leave out parts of slices
     if (!options.shape.clips.empty())
         scene_.mapSources.push_back(std::make_shared<projection::ClipRegion>(options.shape.clips));
+    for (const projection::OpaqueSurface& surface : opaque.surfaces) scene_.shadowCasters.push_back(surface.mesh);
     if (!opaque.empty()) scene_.mapSources.push_back(std::make_shared<const projection::OpaqueLayer>(scene_, opaque));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <apps/shape_options.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -72,6 +73,22 @@ std::vector<HalfSpace> parseSlab(const std::string& text) {
     if (!(n[6] > 0))
         throw std::runtime_error(fmt::format("--slab: a thickness of {} shows nothing; give a length above 0", n[6]));
     return projection::slabHalfSpaces({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6]);
+}
+
+shading::DepthColor parseDepthColor(const std::string& text) {
+    const bool strong = std::count(text.begin(), text.end(), ',') == 3;
+    shading::DepthColor result;
+    if (strong) {
+        const auto n = parseNumbers<4>("--depth-color", text, "r,g,b[,STRENGTH]");
+        result = {{n[0], n[1], n[2]}, n[3]};
+    } else {
+        const auto n = parseNumbers<3>("--depth-color", text, "r,g,b[,STRENGTH]");
+        result.color = {n[0], n[1], n[2]};
+    }
+    if (!(std::min({result.color.x, result.color.y, result.color.z, result.strength}) >= 0 && result.strength <= 1))
+        throw std::runtime_error(
+            fmt::format("--depth-color: {} will not do; give a colour from 0 and a strength from 0 to 1", text));
+    return result;
 }
 
 template <class Value>
@@ -166,6 +183,12 @@ void addShapeOptions(CLI::App& command, ShapeOptions& options, projection::Rende
     addNumber<int>(
         command, "--isosurfaces", options.isosurfaces, [](double value) { return value >= 1.0 && value <= 1024.0; },
         "a whole number from 1 to 1024", "so many equidistant isosurfaces instead of extinction");
+    command
+        .add_option_function<std::string>(
+            "--depth-color",
+            [&settings](const std::string& text) { settings.shading.depthColor = parseDepthColor(text); },
+            "colours go over into this one with the distance, by the strength (1) at the far end")
+        ->type_name("r,g,b[,STRENGTH]");
     addAdaptiveOptions(command, options);
 }
 
@@ -178,6 +201,10 @@ void finishShapeOptions(const ShapeOptions& options, projection::RenderSettings&
     }
     const Mode mode = settings.mode;
     const bool integrates = mode == Mode::Standard || mode == Mode::ScaleInvariant;
+    if (settings.shading.depthColor && !integrates && !projection::addsUp(mode) && mode != Mode::FirstHit)
+        throw std::runtime_error(
+            "--depth-color: this mode's colours lie at no distance; take standard, scale-invariant, first-hit, "
+            "additive, additive-scale-invariant or emission");
     if (settings.classification != Classification::Preintegrated && !integrates && mode != Mode::FirstHit)
         throw std::runtime_error(
             "--classification: only the modes standard, scale-invariant and first-hit classify segments; leave it out");

@@ -48,6 +48,14 @@ HWY_INLINE void cellInterval(const CellBatch& batch, std::size_t j, const FaceOr
     }
 }
 
+/// scalarFall of the block's rays in cell j.
+template <bool Orthographic>
+HWY_INLINE real cellFall(const CellBatch& batch, std::size_t j, real dx, real dy) {
+    real across(0.0f);
+    if constexpr (!Orthographic) across = real(batch.scalarPerX[j]) * dx + real(batch.scalarPerY[j]) * dy;
+    return scalarFall(across, cell_real{batch.scalarPerRho[j]});
+}
+
 }  // namespace tetralux::projection::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -39,7 +39,7 @@ QuickLamp quickLamp(const FrameLight& light, const glm::vec3& specular, const Ti
 QuickLook quickLook(const shading::ShadingSettings& shading, const TileFrame& frame) {
     QuickLook quick;
     const bool plain = shading.plain();
-    if (shading.gradientOpacity > 0 || shading.approximateSilhouette ||
+    if (shading.gradientOpacity > 0 || shading.approximateSilhouette || shading.depthColor ||
         frame.fullLights.size() > QuickLook::mostLights || (!plain && !lampsSuffice(shading)))
         return quick;
     quick.look = frame.fullLights.empty() ? Look::Silhouettes : plain ? Look::Lit : Look::Lamps;

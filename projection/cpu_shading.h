@@ -23,6 +23,16 @@ struct ShadedSegment {
     real r, g, b, opacity, depth;
 };
 
+/// Depth-based colouring (shading::DepthColor). `distance` along the rays, scene lengths.
+HWY_INLINE void colorByDepth(const TileFrame& frame, real distance, ShadedSegment& segment) {
+    const shading::DepthColor& depthColor = *frame.shading->depthColor;
+    const real grey = real(frame.greyPerDistance) * distance + real(frame.greyOfZero);
+    const real share = real(depthColor.strength) * clamp(real(1.0f) - grey, real(0.0f), real(1.0f));
+    segment.r += share * (real(depthColor.color.x) - segment.r);
+    segment.g += share * (real(depthColor.color.y) - segment.g);
+    segment.b += share * (real(depthColor.color.z) - segment.b);
+}
+
 /// 1 − exp(−depth) with the relative precision of float.
 HWY_INLINE real opacityOfDepth(real depth) {
     return select(depth < pieceDepthLimit(), pieceOpacity(min(depth, pieceDepthLimit())), real(1.0f) - exp(-depth));

@@ -117,9 +117,10 @@ struct TileFrame {
     bool earlyTermination;
     const TileLimits* limits = nullptr;
     Classification classification = Classification::Preintegrated;
-    glm::vec3 constantColor{0};                  ///< Absorption: of all that is seen
-    bool emissionOnly = false;                   ///< Additive: alpha stays 0
-    double greyOfZero = 0, greyPerDistance = 0;  ///< Depth: grey as a function of the distance, scene lengths
+    glm::vec3 constantColor{0};  ///< Absorption: of all that is seen
+    bool emissionOnly = false;   ///< Additive: alpha stays 0
+    double greyOfZero = 0,
+           greyPerDistance = 0;  ///< grey of TileKind::Depth as a function of the distance, scene lengths
 };
 
 struct TileResult {

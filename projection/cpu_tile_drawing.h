@@ -263,28 +263,19 @@ private:
     HWY_INLINE void integrateLooked(const Block& block, std::size_t first, std::size_t last, const Segments& segments,
                                     ColorSink& sink) const {
         BlockLook pixels;
-        pixels.fall = fallOf(block);
+        pixels.fall = cellFall<Orthographic>(batch_, block.j, block.dx, block.dy);
         pixels.rayLength = block.rayLength;
         pixels.inverse = loadAt(px_.inverseLength + block.at);
         if constexpr (look != Look::Silhouettes && !Orthographic) {
-            const real pixel(frame_.pixel);
-            pixels.x = pixel * laneX_ + real(frame_.pixel * (x0_ + block.x - frame_.centre.x));
-            pixels.y = pixel * laneY_ + real(frame_.pixel * (y0_ + block.y - frame_.centre.y));
+            const vec3 direction = perDepth(block);
+            pixels.x = direction.x;
+            pixels.y = direction.y;
         }
         if constexpr (look == Look::Lamps) {
-            if (frame_.look.places)
-                pixels.place = middlePlace(block, Orthographic ? vec3(real(0.0f), real(0.0f), real(1.0f))
-                                                               : pixels.inverse * vec3(pixels.x, pixels.y, real(1.0f)));
+            if (frame_.look.places) pixels.place = middlePlace(block, pixels.inverse * perDepth(block));
         }
         LookedSegments<look, Orthographic, ScaleInvariant, Peaks, shows>{frame_, peakLooks_, look_, pixels, segments}
             .add(first, last, sink);
-    }
-
-    HWY_INLINE real fallOf(const Block& block) const {
-        real across(0.0f);
-        if constexpr (!Orthographic)
-            across = real(batch_.scalarPerX[block.j]) * block.dx + real(batch_.scalarPerY[block.j]) * block.dy;
-        return scalarFall(across, cell_real{batch_.scalarPerRho[block.j]});
     }
 
     HWY_INLINE void drawShaded(const Block& block, real t, std::size_t first, std::size_t last,
@@ -313,19 +304,22 @@ private:
     }
 
     HWY_INLINE ShadedSegment shade(const Block& block, const SegmentSink& sink, const Segments& segments) {
-        const std::size_t j = block.j;
         vec3 towards(real(0.0f), real(0.0f), real(1.0f));
-        if constexpr (!Orthographic) {
-            const real inverse = reciprocal(block.rayLength), pixel(frame_.pixel);
-            const real fromAxisX = laneX_ + real(x0_ + block.x - frame_.centre.x),
-                       fromAxisY = laneY_ + real(y0_ + block.y - frame_.centre.y);
-            towards = inverse * vec3(fromAxisX * pixel, fromAxisY * pixel, real(1.0f));
-        }
+        if constexpr (!Orthographic) towards = reciprocal(block.rayLength) * perDepth(block);
         const auto middles = [&]() HWY_ATTR {
             return segmentMiddles<Orthographic>(block.dx, block.dy, block.in, block.out);
         };
         const auto place = [&]() HWY_ATTR { return middlePlace(block, towards); };
-        const real fall = fallOf(block);
+        ShadedSegment shaded = shadeAs(block, sink, segments, towards, middles, place);
+        if (HWY_UNLIKELY(frame_.shading->depthColor.has_value())) colorByDepth(frame_, middleDistance(block), shaded);
+        return shaded;
+    }
+
+    template <class Middles, class Place>
+    HWY_INLINE ShadedSegment shadeAs(const Block& block, const SegmentSink& sink, const Segments& segments,
+                                     vec3 towards, const Middles& middles, const Place& place) {
+        const std::size_t j = block.j;
+        const real fall = cellFall<Orthographic>(batch_, block.j, block.dx, block.dy);
         if constexpr (Limited) {
             const vec3 normal(loadAt(limits_.normal[0] + block.at), loadAt(limits_.normal[1] + block.at),
                               loadAt(limits_.normal[2] + block.at));
@@ -339,19 +333,27 @@ private:
         }
     }
 
+    /// Along the rays to the segments' middles, scene lengths.
+    HWY_INLINE real middleDistance(const Block& block) const {
+        const real half(0.5f), scale(batch_.scale[block.j]);
+        if constexpr (Orthographic) return scale - abs(scale) * (half * (block.in + block.out));
+        const real ratio = half * (reciprocal(real(1.0f) + block.in) + reciprocal(real(1.0f) + block.out));
+        return scale * ratio * block.rayLength;
+    }
+
     /// The segments' middles from the eye: (right, down, forward), scene lengths.
     HWY_INLINE vec3 middlePlace(const Block& block, vec3 towards) const {
-        const real half(0.5f), scale(batch_.scale[block.j]);
-        if constexpr (Orthographic) {
-            const real pixel(frame_.pixel);
-            return {pixel * (laneX_ + real(x0_ + block.x - frame_.centre.x)),
-                    pixel * (laneY_ + real(y0_ + block.y - frame_.centre.y)),
-                    scale - abs(scale) * (half * (block.in + block.out))};
-        } else {
-            const real depth =
-                scale * (half * (reciprocal(real(1.0f) + block.in) + reciprocal(real(1.0f) + block.out)));
-            return (depth * block.rayLength) * towards;
-        }
+        const real distance = middleDistance(block);
+        if constexpr (!Orthographic) return distance * towards;
+        const vec3 beside = perDepth(block);
+        return {beside.x, beside.y, distance};
+    }
+
+    /// The rays' directions with a depth of 1 (orthographic: the rays' places), (right, down, forward).
+    HWY_INLINE vec3 perDepth(const Block& block) const {
+        const real pixel(frame_.pixel);
+        return {pixel * (laneX_ + real(x0_ + block.x - frame_.centre.x)),
+                pixel * (laneY_ + real(y0_ + block.y - frame_.centre.y)), real(1.0f)};
     }
 
     /// Cuts the interval by the pixels' limits; where it then begins at the nearer one.

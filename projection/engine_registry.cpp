@@ -14,6 +14,7 @@
 #include <projection/light_frame.h>
 #include <projection/reference_engine.h>
 #include <projection/scalar_range.h>
+#include <projection/veiled_volume.h>
 #include <projection/view_maps.h>
 
 namespace tetralux::projection {
@@ -24,12 +25,13 @@ struct RegisteredEngine {
     const char* name;
     std::unique_ptr<Engine> (*make)(const Scene&, const EngineOptions&);
     double tie;  ///< isosurface_ties.h
+    bool veils;  ///< whether it draws PixelMaps::veils by itself
 };
 
 // The first one is what "auto" takes.
 constexpr std::array engines{
-    RegisteredEngine{"cpu", makeCpuEngine, floatTie}, RegisteredEngine{"gl", makeGlEngine, floatTie},
-    RegisteredEngine{"reference", makeReferenceEngine, 0.0},  // its ray caster sees to ties
+    RegisteredEngine{"cpu", makeCpuEngine, floatTie, false}, RegisteredEngine{"gl", makeGlEngine, floatTie, false},
+    RegisteredEngine{"reference", makeReferenceEngine, 0.0, true},  // its ray caster sees to ties
 };
 
 }  // namespace
@@ -46,8 +48,9 @@ std::unique_ptr<Engine> makeEngine(const Scene& wanted, const EngineOptions& opt
     for (const auto& engine : engines)
         if (name == engine.name) {
             const MakeEngine plain = [&](const Scene& part) {
-                return withExactRepair(engine.make(engine.tie > 0 ? withTiesAbove(part, engine.tie) : part, options),
-                                       part);
+                auto made = withExactRepair(
+                    engine.make(engine.tie > 0 ? withTiesAbove(part, engine.tie) : part, options), part);
+                return engine.veils ? std::move(made) : withVeils(std::move(made));
             };
             return withViewMaps(scene.settings.adaptive ? makeAdaptiveEngine(scene, plain) : plain(scene), scene);
         }

@@ -59,7 +59,7 @@ float segmentLength(CellRecord cell, vec2 rho, vec2 fromCentre) {
 }
 #endif
 
-#if TETRALUX_MODE == TETRALUX_MODE_DEPTH
+#if TETRALUX_MODE == TETRALUX_MODE_DEPTH || TETRALUX_DEPTH_COLOR
 // Distance along the ray, scene lengths.
 float distanceTo(CellRecord cell, float rho, vec2 fromCentre) {
 #if TETRALUX_ORTHOGRAPHIC
@@ -128,6 +128,10 @@ bool drawPixel(CellRecord cell, ivec2 place, out vec4 result) {
     across = cell.scalarPerX * dx + cell.scalarPerY * dy;
 #endif
     float side = sign(scalarFall(across, cell.scalarPerRho));
+#if TETRALUX_DEPTH_COLOR
+    float middle = 0.5 * (distanceTo(cell, rho.x, pixel - centre) + distanceTo(cell, rho.y, pixel - centre));
+    depthShare = depthColor.a * clamp(depthRange.x + depthRange.y * middle, 0.0, 1.0);
+#endif
     vec4 perOpacity = shadedSegment(front, back, len, side, view, normalAndMagnitude, cutNormal);
 #if TETRALUX_MODE == TETRALUX_MODE_FIRST_HIT
     if (!segmentShows(front, back)) return false;

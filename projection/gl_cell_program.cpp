@@ -91,7 +91,8 @@ GlDefines variant(const RenderSettings& settings, const shading::VertexLight& ve
     defines.set("TETRALUX_SAMPLED", shades && settings.classification != Classification::Preintegrated);
     defines.set("TETRALUX_LINEAR_OPACITY", shades && settings.classification == Classification::PostLinear);
     defines.set("TETRALUX_LIGHTS", lights);
-    defines.set("TETRALUX_GRADIENT", silhouette || levoy || lights > 0);
+    defines.set("TETRALUX_DEPTH_COLOR", shades && shading.depthColor.has_value());
+    defines.set("TETRALUX_GRADIENT", shades && shading.needsGradient());
     const bool full = lights > 0 && !shading.plain();
     defines.set("TETRALUX_FULL_LIGHT", full);
     const bool sampled = shades && settings.classification == Classification::Pre && vertexLight.sampleAt >= 0;
@@ -258,6 +259,9 @@ void GlCellProgram::setConstants(const RenderSettings& settings, const std::vect
     gl_.Uniform1f(program_.uniform("ambient"), static_cast<float>(shading.ambient));
     gl_.Uniform1f(program_.uniform("exponent"), static_cast<float>(shading.exponent));
     gl_.Uniform1f(program_.uniform("transmission"), shading.transmission ? 1.0f : 0.0f);
+    if (const auto& by = shading.depthColor)
+        gl_.Uniform4f(program_.uniform("depthColor"), static_cast<float>(by->color.x), static_cast<float>(by->color.y),
+                      static_cast<float>(by->color.z), static_cast<float>(by->strength));
     setLightModel(shading);
     gl_.Uniform1f(program_.uniform("gradientOpacity"), static_cast<float>(shading.gradientOpacity));
     gl_.Uniform1i(program_.uniform("limits"), static_cast<GLint>(limitsUnit));
@@ -311,6 +315,12 @@ void GlCellProgram::setLights(const std::vector<FrameLight>& lights, const Scene
     gl_.Uniform3fv(program_.uniform("lightColor"), count, reinterpret_cast<const float*>(colors.data()));
     gl_.Uniform1iv(program_.uniform("lightKind"), count, kinds.data());
     gl_.Uniform1f(program_.uniform("perLength"), static_cast<float>(1.0 / units.length));
+}
+
+void GlCellProgram::setDepthRange(const DepthRange& range, const SceneUnits& units) const {
+    const double atEye = 1.0 - range.greyAt(0.0);
+    gl_.Uniform2f(program_.uniform("depthRange"), static_cast<float>(atEye),
+                  static_cast<float>(1.0 - range.greyAt(units.length) - atEye));
 }
 
 void GlCellProgram::use(const CameraFrame& frame, double depthReference) const {

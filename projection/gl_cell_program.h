@@ -82,6 +82,9 @@ public:
     /// The lights of that camera, for programs of light in full; after use().
     void setLights(const std::vector<FrameLight>& lights, const SceneUnits& units) const;
 
+    /// Where depth-based colouring begins and ends; after use().
+    void setDepthRange(const DepthRange& range, const SceneUnits& units) const;
+
 private:
     void setConstants(const RenderSettings& settings, const std::vector<glm::dvec2>& support,
                       const preint::PreintegrationTable* table) const;

@@ -308,6 +308,8 @@ const GlCellProgram& GlEngine::beginFrame(const View& view, const CameraFrame& f
     if (way == GlDrawing::Tiles)
         cellProgram.setTiles(frame, layout_.floats(), scene_.settings.earlyTermination ? leastTransmittance : -1.0f);
     if (fullLight_) cellProgram.setLights(frameLights(scene_.settings.shading, units_, frame), units_);
+    if (scene_.settings.shading.depthColor)
+        cellProgram.setDepthRange(depthRange(scene_.mesh->bounds, view.camera), units_);
     setBlending();
     return cellProgram;
 }

@@ -27,6 +27,12 @@ bool segmentShows(float front, float back) {
     return shows;
 }
 
+#if TETRALUX_DEPTH_COLOR
+uniform vec4 depthColor;  // colour and strength
+uniform vec2 depthRange;  // share of the way to the far end: at distance 0, per scene length
+float depthShare;         // how much of depthColor the segment takes
+#endif
+
 // Colour per α and α of a segment in view direction `view` (unit, towards the eye); `gradient` is the unit normal and
 // |g|, both zero where the scalar is constant; `fallSide` the sign of
 // s_f − s_b. `cutNormal` is lit where it is not zero. In modes that hide nothing depth stands
@@ -87,6 +93,9 @@ vec4 shadedSegment(float front, float back, float len, float fallSide, vec3 view
             color += lightTerm(segment.meanColor, normal, view, lights[i], side, transmitted, exponent);
         }
     }
+#endif
+#if TETRALUX_DEPTH_COLOR
+    color = mix(color, depthColor.rgb, depthShare);
 #endif
 #if TETRALUX_MODE == TETRALUX_MODE_ADDITIVE || TETRALUX_MODE == TETRALUX_MODE_ABSORPTION
     return vec4(color, depth);

@@ -13,6 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include <mesh/cell_tree.h>
+#include <mesh/triangle_tree.h>
 #include <preint/exact_integral.h>
 
 namespace tetralux::projection {
@@ -23,6 +24,9 @@ using shading::Light;
 
 constexpr double besideVertex = 1e-7;  // of the mesh's diagonal
 const glm::dvec3 besideDirection = glm::normalize(glm::dvec3(0.4142135, 0.7320508, 0.2360679));
+
+/// What a place stands on does not shade it: opaque surfaces count from this on, of the mesh's diagonal.
+constexpr double besideSurface = 1e-6;
 
 constexpr int areaSamples = 16;
 
@@ -70,15 +74,44 @@ Part partIn(const mesh::ScalarMesh& mesh, mesh::CellIndex cell, const Line& line
     return {out - in, origin + front, origin + back};
 }
 
+using Triangles = std::vector<mesh::TriangleTree::Corners>;
+
+Triangles trianglesOf(const std::vector<std::shared_ptr<const mesh::SurfaceMesh>>& surfaces) {
+    Triangles triangles;
+    for (const auto& surface : surfaces)
+        for (const auto& [a, b, c] : surface->triangles)
+            triangles.push_back({surface->positions[a], surface->positions[b], surface->positions[c]});
+    return triangles;
+}
+
+/// Whether the line passes through the triangle beyond `least` (Möller & Trumbore 1997). Edges belong to both
+/// triangles, so that no light gets through between them.
+bool meets(const Line& line, const mesh::TriangleTree::Corners& triangle, double least) {
+    const glm::dvec3 u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
+    const glm::dvec3 across = glm::cross(line.direction, v);
+    const double whole = glm::dot(u, across);
+    if (whole == 0) return false;
+    const glm::dvec3 from = line.origin - triangle[0], other = glm::cross(from, u);
+    constexpr double rounding = 1e-12;
+    const double b = glm::dot(from, across) / whole, c = glm::dot(line.direction, other) / whole;
+    if (b < -rounding || c < -rounding || b + c > 1 + rounding) return false;
+    const double t = glm::dot(v, other) / whole;
+    return t > least && t < line.end;
+}
+
 class ShadowRays {
 public:
     explicit ShadowRays(const Scene& scene)
         : mesh_(*scene.mesh),
           tree_(mesh_.positions, mesh_.cells),
+          triangles_(trianglesOf(scene.shadowCasters)),
+          surfaces_(triangles_),
+          beside_(besideSurface * mesh_.bounds.diagonal()),
           exact_(scene.transferFunction),
           scaleInvariant_(integralOf(scene.settings.mode) == preint::Integral::ScaleInvariant) {}
 
     double transmittance(const Line& line) const {
+        if (hidden(line)) return 0;
         double depth = 0;
         tree_.forEachAlong(line.origin, line.direction, line.end, [&](mesh::CellIndex cell) {
             if (depth < darkDepth) depth += depthOf(partIn(mesh_, cell, line));
@@ -87,6 +120,14 @@ public:
     }
 
 private:
+    bool hidden(const Line& line) const {
+        bool hit = false;
+        surfaces_.forEachAlong(line.origin, line.direction, line.end, [&](std::uint32_t triangle) {
+            hit = hit || meets(line, triangles_[triangle], beside_);
+        });
+        return hit;
+    }
+
     double depthOf(const Part& part) const {
         if (!(part.length > 0)) return 0;
         double depth = 0;
@@ -105,6 +146,9 @@ private:
 
     const mesh::ScalarMesh& mesh_;
     const mesh::CellTree tree_;
+    const Triangles triangles_;
+    const mesh::TriangleTree surfaces_;
+    const double beside_;
     const preint::ExactIntegral exact_;
     const bool scaleInvariant_;
 };

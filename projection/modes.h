@@ -3,6 +3,8 @@
 /// What a picture shows of the scalars along a ray.
 #pragma once
 
+#include <algorithm>
+
 #include <mesh/tet_mesh.h>
 #include <preint/exact_integral.h>
 #include <projection/camera.h>
@@ -42,6 +44,8 @@ bool orderFree(Mode mode);
 struct DepthRange {
     double nearest, farthest;
     double greyAt(double distance) const { return (farthest - distance) / (farthest - nearest); }
+    /// 0 at the nearest, 1 at the farthest end, within that.
+    double shareAt(double distance) const { return std::clamp(1.0 - greyAt(distance), 0.0, 1.0); }
 };
 DepthRange depthRange(const mesh::BoundingBox& bounds, const Camera& camera);
 

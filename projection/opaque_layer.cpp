@@ -16,6 +16,7 @@
 #include <projection/arriving_light.h>
 #include <projection/corner_normals.h>
 #include <projection/ray_triangle.h>
+#include <projection/veiled_volume.h>
 
 namespace tetralux::projection {
 
@@ -38,15 +39,31 @@ int clampedPixel(double position, int size) {
 
 }  // namespace
 
+namespace {
+
+void checkOpacity(double opacity, Mode mode) {
+    if (!(opacity >= 0.0) || !(opacity <= 1.0))
+        throw std::runtime_error(
+            fmt::format("slice opacity {}: not from 0 to 1; give a share of what is hidden", opacity));
+    if (opacity < 1.0 && !composesParts(mode))
+        throw std::runtime_error(
+            "slice opacity: this mode shows nothing behind a slice; take standard, scale-invariant, first-hit or "
+            "absorption, or slices of opacity 1");
+}
+
+}  // namespace
+
 OpaqueLayer::OpaqueLayer(const Scene& scene, const OpaqueObjects& objects)
-    : association_(scene.mesh->association),
+    : bounds_(scene.mesh->bounds),
+      association_(scene.mesh->association),
       transferFunction_(scene.transferFunction),
       shading_(scene.settings.shading),
-      sliceCount_(objects.slices.size()),
       surfaces_(objects.surfaces) {
-    if (shading_.needsShadows() && !surfaces_.empty()) shadowAt_ = shadowsOf(scene);
+    if (shading_.needsShadows()) shadowAt_ = shadowsOf(scene);
     std::uint32_t object = 0;
     for (const Slice& slice : objects.slices) {
+        checkOpacity(slice.opacity, scene.settings.mode);
+        sliceOpacities_.push_back(slice.opacity);
         const mesh::SurfaceMesh cut = mesh::cutByPlane(*scene.mesh, slice.point, slice.normal);
         if (cut.triangles.empty()) {
             const mesh::BoundingBox& box = scene.mesh->bounds;
@@ -64,7 +81,7 @@ void OpaqueLayer::append(const mesh::SurfaceMesh& part, std::uint32_t object) {
     const bool ofCells = part.association == mesh::Association::Cell && !part.scalars.empty();
     positions_.insert(positions_.end(), part.positions.begin(), part.positions.end());
     if (!ofCells) scalars_.insert(scalars_.end(), part.scalars.begin(), part.scalars.end());
-    const bool smooth = object >= sliceCount_ && shading_.normals == shading::Normals::Smooth;
+    const bool smooth = object >= sliceOpacities_.size() && shading_.normals == shading::Normals::Smooth;
     const auto normals = smooth ? cornerNormals(part) : std::vector<std::array<glm::dvec3, 3>>();
     for (std::size_t i = 0; i < part.triangles.size(); ++i) {
         const auto& [a, b, c] = part.triangles[i];
@@ -103,6 +120,27 @@ glm::dvec3 OpaqueLayer::surfaceColor(const OpaqueSurface& surface, const Triangl
     return surface.color * glm::min(light, 1.0);
 }
 
+glm::dvec3 OpaqueLayer::atDepth(const glm::dvec3& color, const DepthRange& depths, double distance) const {
+    const auto& by = shading_.depthColor;
+    return by ? glm::mix(color, by->color, by->strength * depths.shareAt(distance)) : color;
+}
+
+/// The transfer function's colour, as it is so that it can be read off; in shadow of the volume or of surfaces times
+/// a + (1 − a)·(mean transmittance to the lights), a the ambient light.
+glm::dvec3 OpaqueLayer::sliceColor(const Triangle& triangle, const TriangleCrossing& where,
+                                   const glm::dvec3& place) const {
+    const auto& [a, b, c] = triangle.corners;
+    const double scalar =
+        association_ == mesh::Association::Cell ? triangle.scalar : where.blend(scalars_[a], scalars_[b], scalars_[c]);
+    const glm::dvec3 color = transferFunction_.colorAt(scalar);
+    if (!shadowAt_) return color;
+    double arrives = 0;
+    for (const shading::Light& source : shading_.lights) arrives += shadowAt_(source, place);
+    arrives /= static_cast<double>(shading_.lights.size());
+    const glm::dvec3 ambient = glm::min(shading_.ambient * shading_.ambientColor, 1.0);
+    return color * (ambient + (1.0 - ambient) * arrives);
+}
+
 /// One camera's view of all triangles.
 class OpaqueLayer::Frame {
 public:
@@ -110,6 +148,7 @@ public:
         : layer_(layer),
           camera_(camera),
           frame_(cameraFrame(camera)),
+          depths_(depthRange(layer.bounds_, camera)),
           maps_(maps),
           tilesAcross_((camera.width + tileSize - 1) / tileSize),
           tilesDown_((camera.height + tileSize - 1) / tileSize) {}
@@ -117,13 +156,25 @@ public:
     void render() {
         bin();
         hits_.assign(static_cast<std::size_t>(frame_.width) * static_cast<std::size_t>(frame_.height), {});
+        veils_.resize(static_cast<std::size_t>(tilesAcross_ * tilesDown_));
         tbb::parallel_for(0, tilesAcross_ * tilesDown_, [&](int tile) { renderTile(tile); });
         for (std::size_t pixel = 0; pixel < hits_.size(); ++pixel)
             if (hits_[pixel].distance < infinite)
                 putOpaque(camera_, maps_, pixel, hits_[pixel].distance, hits_[pixel].color);
+        putVeils();
     }
 
 private:
+    /// Those that nothing opaque hides, in their order.
+    void putVeils() {
+        for (const auto& part : veils_)
+            for (const Veil& veil : part)
+                if (veil.distance < hits_[veil.pixel].distance) maps_.veils.push_back(veil);
+        std::sort(maps_.veils.begin(), maps_.veils.end(), [](const Veil& a, const Veil& b) {
+            return a.pixel != b.pixel ? a.pixel < b.pixel : a.distance < b.distance;
+        });
+    }
+
     struct Hit {
         double distance = infinite;  // along the pixel's unit ray
         glm::vec3 color{0};
@@ -195,7 +246,7 @@ private:
         tile->box = {x0, y0, std::min(x0 + tileSize, frame_.width), std::min(y0 + tileSize, frame_.height)};
         forEachPixel(tile->box,
                      [&](int x, int y) { tile->rays[Tile::slot(tile->box, x, y)] = RayFrame(pixelRay(frame_, x, y)); });
-        for (const std::uint32_t index : members) meet(*tile, index);
+        for (const std::uint32_t index : members) meet(*tile, index, veils_[static_cast<std::size_t>(number)]);
         forEachPixel(tile->box, [&](int x, int y) {
             const std::size_t slot = Tile::slot(tile->box, x, y);
             const auto& [distance, triangle, where] = tile->met[slot];
@@ -214,8 +265,8 @@ private:
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_.width) + static_cast<std::size_t>(x);
     }
 
-    /// Which of the tile's rays the triangle is the nearest to so far.
-    void meet(Tile& tile, std::uint32_t index) const {
+    /// Which of the tile's rays the triangle is the nearest to so far; of a slice with opacity, all that it meets.
+    void meet(Tile& tile, std::uint32_t index, std::vector<Veil>& veils) const {
         const Triangle& triangle = layer_.triangles_[index];
         const auto& [a, b, c] = triangle.corners;
         const std::array<glm::dvec3, 3> corners{layer_.positions_[a], layer_.positions_[b], layer_.positions_[c]};
@@ -229,13 +280,22 @@ private:
             const auto crossing = crossTriangle({seen[0].across, seen[1].across, seen[2].across}, triangle.corners);
             if (!crossing) return;
             const double t = crossing->blend(seen[0].t, seen[1].t, seen[2].t);
-            if (!(t > 0) || !(t < tile.met[slot].distance)) return;
-            if (isSlice(triangle) && !inRange(pixelNumber(x, y), t)) return;
+            if (!(t > 0) || (isSlice(triangle) && !inRange(pixelNumber(x, y), t))) return;
+            if (const double opacity = opacityOf(triangle); opacity < 1.0) {
+                const glm::dvec3 color = opacity * colorOf(triangle, *crossing, ray, t);
+                veils.push_back({static_cast<std::uint32_t>(pixelNumber(x, y)), t, glm::vec4(color, opacity)});
+                return;
+            }
+            if (!(t < tile.met[slot].distance)) return;
             tile.met[slot] = {t, &triangle, *crossing};
         });
     }
 
-    bool isSlice(const Triangle& triangle) const { return triangle.object < layer_.sliceCount_; }
+    bool isSlice(const Triangle& triangle) const { return triangle.object < layer_.sliceOpacities_.size(); }
+
+    double opacityOf(const Triangle& triangle) const {
+        return isSlice(triangle) ? layer_.sliceOpacities_[triangle.object] : 1.0;
+    }
 
     bool inRange(std::size_t pixel, double t) const {
         const double tolerance = rangeTolerance * t;
@@ -246,22 +306,20 @@ private:
     glm::dvec3 colorOf(const Triangle& triangle, const TriangleCrossing& where, const RayFrame& ray,
                        double distance) const {
         if (!isSlice(triangle))
-            return layer_.surfaceColor(layer_.surfaces_[triangle.object - layer_.sliceCount_], triangle, where, ray,
-                                       distance);
-        const auto& [a, b, c] = triangle.corners;
-        const std::vector<double>& scalars = layer_.scalars_;
-        const double scalar = layer_.association_ == mesh::Association::Cell
-                                  ? triangle.scalar
-                                  : where.blend(scalars[a], scalars[b], scalars[c]);
-        return layer_.transferFunction_.colorAt(scalar);
+            return layer_.atDepth(layer_.surfaceColor(layer_.surfaces_[triangle.object - layer_.sliceOpacities_.size()],
+                                                      triangle, where, ray, distance),
+                                  depths_, distance);
+        return layer_.sliceColor(triangle, where, ray.origin + distance * ray.direction);
     }
 
     const OpaqueLayer& layer_;
     const Camera& camera_;
     const CameraFrame frame_;
+    const DepthRange depths_;
     PixelMaps& maps_;
     int tilesAcross_, tilesDown_;
     std::vector<Hit> hits_;                          // by pixel
+    std::vector<std::vector<Veil>> veils_;           // by tile
     std::vector<PixelBox> boxes_;                    // by triangle
     std::vector<std::vector<std::uint32_t>> tiles_;  // triangles by tile
 };

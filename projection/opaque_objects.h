@@ -13,6 +13,7 @@ namespace tetralux::projection {
 /// The plane through `point`; within the mesh it shows the transfer function's colour at the scalar there.
 struct Slice {
     glm::dvec3 point, normal;  ///< mesh units; normal of any length but 0
+    double opacity = 1.0;      ///< below 1 what lies behind shows too (veiled_volume.h)
 };
 
 /// An opaque surface, each triangle lit by itself from the side that the eye sees (colour as it is where `flat`).

@@ -3,6 +3,7 @@
 /// What depends on the pixel: where its ray may see the volume, how opaque the volume is there, and what lies behind.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -14,8 +15,16 @@
 
 namespace tetralux::projection {
 
-/// Each vector is empty (nothing) or has width·height elements, row-major, row 0 at the top. Engines honour all but
-/// `behind`, which composes the finished volume (withPixelMaps).
+/// Each vector but `veils` is empty (nothing) or has width·height elements, row-major, row 0 at the top. Engines honour
+/// all but `behind`, which composes the finished volume (view_maps.h), and `veils`, between which it is drawn part by
+/// part (veiled_volume.h); the reference honours those by itself.
+/// Something that lets part of what is behind it through: a slice with opacity.
+struct Veil {
+    std::uint32_t pixel;  ///< y·width + x
+    double distance;      ///< along the unit ray, mesh units
+    glm::vec4 color;      ///< premultiplied RGBA
+};
+
 struct PixelMaps {
     std::vector<double>
         nearest;  ///< distance along the unit ray (mesh units) before which nothing of the volume is seen
@@ -24,10 +33,15 @@ struct PixelMaps {
                                            ///< eye's side; 0: none. Light of a segment that begins at the cut uses it
     std::vector<float> extinctionScale;    ///< factor of extinction and of the depth of isosurfaces, ≥ 0
     std::vector<glm::vec4> behind;         ///< premultiplied RGBA put under the volume (slices, opaque surfaces)
+    std::vector<Veil> veils;  ///< within the volume, between nearest and farthest: by pixel, then by distance
 
-    bool empty() const { return nearest.empty() && farthest.empty() && extinctionScale.empty() && behind.empty(); }
+    bool empty() const {
+        return nearest.empty() && farthest.empty() && extinctionScale.empty() && behind.empty() && veils.empty();
+    }
     /// Whether engines have to look at the maps.
-    bool changeVolume() const { return !nearest.empty() || !farthest.empty() || !extinctionScale.empty(); }
+    bool changeVolume() const {
+        return !nearest.empty() || !farthest.empty() || !extinctionScale.empty() || !veils.empty();
+    }
 };
 
 /// What an engine is asked for; made implicitly of a camera alone.

@@ -270,8 +270,15 @@ struct Shaded {
     double opacity, depth;
 };
 
+/// Depth-based colouring, at the middle of a segment.
+glm::dvec3 colorAtDepth(const shading::ShadingSettings& shading, const DepthRange& depths, double distance,
+                        const glm::dvec3& color) {
+    if (!shading.depthColor) return color;
+    return glm::mix(color, shading.depthColor->color, shading.depthColor->strength * depths.shareAt(distance));
+}
+
 Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& ray, const RaySegment& segment,
-             const glm::dvec3& cutNormal) {
+             const glm::dvec3& cutNormal, const DepthRange& depths) {
     const auto& shading = scene.settings.shading;
     const preint::Integral integral = integralOf(scene.settings.mode);
     const double length = segment.tOut - segment.tIn;
@@ -309,7 +316,8 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
         opacity = glsl::approximateSilhouetteOpacity(-std::expm1(-plain), std::min(plain, 1e30), std::min(depth, 1e60));
     if (linear) opacity = glsl::linearOpacity(depth);
     const double weight = hides ? opacity : depth;
-    if (!shading.lit()) return {meanColor * weight, opacity, depth};
+    const double fromEye = 0.5 * segment.tIn + 0.5 * segment.tOut;
+    if (!shading.lit()) return {colorAtDepth(shading, depths, fromEye, meanColor) * weight, opacity, depth};
 
     const double scalarStep = segment.scalarIn - segment.scalarOut;
     const bool cut = segment.cutInFront && cutNormal != glm::dvec3(0);
@@ -317,13 +325,13 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
     lit.cell = segment.cell;
     lit.middle = middle;
     lit.direction = ray.direction;
-    lit.fromEye = 0.5 * segment.tIn + 0.5 * segment.tOut;
+    lit.fromEye = fromEye;
     lit.normal = cut ? cutNormal : normal;
     lit.cut = cut;
     lit.side = cut ? 1.0 : scalarStep > 0 ? 1.0 : scalarStep < 0 ? -1.0 : 0.0;
     lit.color = meanColor;
     lit.opacity = opacity;
-    return {litColor(scene, lit) * weight, opacity, depth};
+    return {colorAtDepth(shading, depths, fromEye, litColor(scene, lit)) * weight, opacity, depth};
 }
 
 }  // namespace
@@ -335,6 +343,10 @@ ReferenceRayCaster::PixelLimits ReferenceRayCaster::limitsAt(const PixelMaps* ma
     if (!maps->farthest.empty()) limits.farthest = maps->farthest[pixel];
     if (!maps->nearestNormal.empty()) limits.cutNormal = maps->nearestNormal[pixel];
     if (!maps->extinctionScale.empty()) limits.extinctionScale = static_cast<double>(maps->extinctionScale[pixel]);
+    const auto [first, last] =
+        std::equal_range(maps->veils.begin(), maps->veils.end(), Veil{static_cast<std::uint32_t>(pixel), 0.0, {}},
+                         [](const Veil& a, const Veil& b) { return a.pixel < b.pixel; });
+    limits.veils = {first, last};
     return limits;
 }
 
@@ -342,9 +354,34 @@ glm::dvec4 ReferenceRayCaster::colorOf(const Ray& ray, const PixelLimits& limits
                                        std::vector<RaySegment>& segments) const {
     if (limits.nearest > 0 || limits.farthest < HUGE_VAL)
         std::erase_if(segments, [&](RaySegment& s) { return !limit(s, limits.nearest, limits.farthest); });
-    if (limits.extinctionScale == 1.0) return composite(ray, exact_, limits, segments);
-    const preint::ExactIntegral scaled(scaledExtinction(scene_.transferFunction, limits.extinctionScale));
-    return composite(ray, scaled, limits, segments);
+    const auto drawn = [&](const preint::ExactIntegral& exact) {
+        return limits.veils.empty() ? composite(ray, exact, limits, segments)
+                                    : betweenVeils(ray, exact, limits, segments);
+    };
+    if (limits.extinctionScale == 1.0) return drawn(exact_);
+    return drawn(preint::ExactIntegral(scaledExtinction(scene_.transferFunction, limits.extinctionScale)));
+}
+
+/// The volume up to each veil, the veil, what lies behind the last.
+glm::dvec4 ReferenceRayCaster::betweenVeils(const Ray& ray, const preint::ExactIntegral& exact,
+                                            const PixelLimits& limits, const std::vector<RaySegment>& segments) const {
+    PixelLimits part = limits;
+    glm::dvec4 sum(0);
+    double begin = 0;
+    for (std::size_t i = 0; i <= limits.veils.size(); ++i) {
+        const double end = i < limits.veils.size() ? limits.veils[i].distance : HUGE_VAL;
+        std::vector<RaySegment> within = segments;
+        std::erase_if(within, [&](RaySegment& s) {
+            const bool atLimit = s.cutInFront && begin <= s.tIn;
+            const bool empty = !limit(s, begin, end);
+            s.cutInFront = atLimit;  // a veil cuts nothing: the volume goes on behind it
+            return empty;
+        });
+        sum += (1.0 - sum.w) * composite(ray, exact, part, within);
+        if (i < limits.veils.size()) sum += (1.0 - sum.w) * glm::dvec4(limits.veils[i].color);
+        begin = end;
+    }
+    return sum;
 }
 
 glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, const preint::ExactIntegral& exact, const PixelLimits& limits,
@@ -360,7 +397,7 @@ glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, const preint::ExactInte
         case Mode::ScaleInvariant: {
             Gathered gathered;
             for (const RaySegment& segment : segments) {
-                const Shaded shaded = shade(exact, scene_, ray, segment, cutNormal);
+                const Shaded shaded = shade(exact, scene_, ray, segment, cutNormal, limits.depths);
                 gathered.add(shaded.color, shaded.opacity);
             }
             return gathered.pixel();
@@ -383,7 +420,7 @@ glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, const preint::ExactInte
             glm::dvec3 color(0);
             double sum = 0;
             for (const RaySegment& segment : segments) {
-                const Shaded shaded = shade(exact, scene_, ray, segment, cutNormal);
+                const Shaded shaded = shade(exact, scene_, ray, segment, cutNormal, limits.depths);
                 color += shaded.color;
                 sum += shaded.depth;
             }
@@ -391,7 +428,8 @@ glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, const preint::ExactInte
         }
         case Mode::Absorption: {
             double depth = 0;
-            for (const RaySegment& segment : segments) depth += shade(exact, scene_, ray, segment, cutNormal).depth;
+            for (const RaySegment& segment : segments)
+                depth += shade(exact, scene_, ray, segment, cutNormal, limits.depths).depth;
             return {0, 0, 0, -std::expm1(-depth)};
         }
         case Mode::Contribution:
@@ -422,7 +460,7 @@ glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, const preint::ExactInte
         }
         case Mode::FirstHit:
             for (const RaySegment& segment : segments) {
-                const Shaded shaded = shade(exact, scene_, ray, segment, cutNormal);
+                const Shaded shaded = shade(exact, scene_, ray, segment, cutNormal, limits.depths);
                 if (shaded.opacity > 0) return {shaded.color / shaded.opacity, 1.0};
             }
             return glm::dvec4(0);

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -56,9 +57,12 @@ private:
         glm::dvec3 cutNormal{0};  ///< used for light where a segment begins at `nearest`; 0: none
         double extinctionScale = 1.0;
         DepthRange depths{0.0, 1.0};  ///< of the camera, the same for all pixels
+        std::span<const Veil> veils;  ///< of the pixel, by distance
     };
     static PixelLimits limitsAt(const PixelMaps* maps, std::size_t pixel);
     glm::dvec4 colorOf(const Ray& ray, const PixelLimits& limits, std::vector<RaySegment>& segments) const;
+    glm::dvec4 betweenVeils(const Ray& ray, const preint::ExactIntegral& exact, const PixelLimits& limits,
+                            const std::vector<RaySegment>& segments) const;
     glm::dvec4 composite(const Ray& ray, const preint::ExactIntegral& exact, const PixelLimits& limits,
                          std::vector<RaySegment>& segments) const;
 

@@ -7,6 +7,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <mesh/surface_mesh.h>
 #include <mesh/tet_mesh.h>
 #include <preint/preintegration_table.h>
 #include <preint/transfer_function.h>
@@ -45,6 +46,8 @@ struct Scene {
     RenderSettings settings;
     /// Clip planes, slices, opaque surfaces: asked in turn for every frame.
     std::vector<std::shared_ptr<const PixelMapSource>> mapSources = {};
+    /// What keeps light from the volume besides it, where there are shadows: opaque surfaces.
+    std::vector<std::shared_ptr<const mesh::SurfaceMesh>> shadowCasters = {};
     /// Kept for several engines (withVertexLight in light_frame.h); where there is none each makes its own.
     std::shared_ptr<const shading::VertexLight> vertexLight{};
 };

@@ -74,6 +74,14 @@ struct ShadowSettings {
     double softness = 0.0;  ///< radius of an area light: point lights in mesh units, directional as a slope; 0: hard
 };
 
+/// Colours go over into this one with the distance from the eye (after the depth-based colouring of Marchesin, Dischler
+/// & Mongenet, Volume Graphics 2007, which keeps near and far apart where opacity no longer does): c ← (1 − w)·c +
+/// w·color, w = strength·(share of the way from the near to the far end of the mesh's bounding sphere), after light.
+struct DepthColor {
+    glm::dvec3 color{0.35, 0.45, 0.75};
+    double strength = 1.0;  ///< 0 … 1: w at the far end
+};
+
 struct ShadingSettings {
     bool silhouette = false;             ///< Kraus 2005, Equations 15 and 17
     bool approximateSilhouette = false;  ///< α' = min(1, α·k), Equation 16, where there are silhouettes
@@ -90,10 +98,12 @@ struct ShadingSettings {
     Material material;
     AnisotropySettings anisotropy;
     ShadowSettings shadows;
+    std::optional<DepthColor> depthColor;
 
     bool lit() const { return !lights.empty(); }
     double wardExponent() const { return anisotropy.kappa.value_or(exponent / 8); }  ///< κ
-    bool needsGradient() const { return silhouette || gradientOpacity > 0 || lit(); }
+    /// Whether segments are shaded one by one.
+    bool needsGradient() const { return silhouette || gradientOpacity > 0 || lit() || depthColor.has_value(); }
     bool needsAnisotropy() const {
         return lit() && (reflectance == Reflectance::Ward || reflectance == Reflectance::Lafortune);
     }

@@ -70,7 +70,8 @@ const char* remedyFor(std::string_view message) {
     if (says("nsupported") || says("Unknown data type")) {
         return "the file may be sound: save it with another encoding or type of values";
     }
-    if (says("File for piece") || says("ould not open file") || says("cannot read data from file")) {
+    if (says("File for piece") || says("ould not open file") || says("nable to open file") ||
+        says("cannot read data from file")) {
         return "a file that it names is missing or damaged: put it in its place";
     }
     return "it is probably truncated or damaged: write it again";

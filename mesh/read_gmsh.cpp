@@ -48,6 +48,7 @@ public:
         nodeTags_ = {};
         addRegionField(soup_, "entity", std::move(entities_));
         addViews(time);
+        addPhysicalGroups();
         return std::move(soup_);
     }
 
@@ -200,11 +201,24 @@ private:
     /// Tags of an element in version 2: physical group, elementary entity, then partitions. \returns the entity.
     std::int64_t takeTags2(std::int64_t count) {
         std::int64_t entity = 0;
+        physicals_.resize(entities_.size() + 1, 0.0);
         for (std::int64_t i = 0; i < count; ++i) {
             const std::int64_t tag = takeInt("a tag of an element");
             entity = i == 1 ? tag : entity;
+            physicals_.back() = i == 0 ? static_cast<double>(tag) : physicals_.back();
         }
         return entity;
+    }
+
+    /// Version 2 names the group of each element; one that all solids have says nothing.
+    void addPhysicalGroups() {
+        if (!physicals_.empty()) {
+            physicals_.resize(soup_.types.size(), 0.0);
+            addRegionField(soup_, "physical", std::move(physicals_));
+            if (soup_.fields.back().bookkeeping) {
+                soup_.fields.pop_back();
+            }
+        }
     }
 
     void parseElements2() {
@@ -348,6 +362,7 @@ private:
     Numbers cellOf_;
     std::vector<std::int64_t> nodeTags_;  ///< the connectivity until all nodes are known
     std::vector<double> entities_;
+    std::vector<double> physicals_;
     std::vector<View> views_;
 };
 

@@ -45,6 +45,16 @@ TEST(Gmsh, Version2TextWithData) {
     EXPECT_EQ(parseGmsh(gmsh2, "a.msh", 1.4).fields[1].values[0], 11.0);
 }
 
+TEST(Gmsh, PhysicalGroupsThatDiffer) {
+    std::string groups = gmsh2;
+    groups.replace(groups.find("5 4 2 7 2 "), 10, "5 4 2 9 2 ");
+    const CellSoup soup = parseGmsh(groups, "a.msh", std::nullopt);
+    const Field& physical = soup.fields.back();
+    EXPECT_EQ(physical.name, "physical");
+    EXPECT_FALSE(physical.bookkeeping);
+    EXPECT_EQ(physical.values, (std::vector<double>{0, 7, 9}));
+}
+
 TEST(Gmsh, Version2Binary) {
     std::string bytes = "$MeshFormat\n2.2 1 8\n" + packed(1) + "\n$EndMeshFormat\n$Nodes\n4\n";
     bytes += packed(1, 0.0, 0.0, 0.0, 2, 1.0, 0.0, 0.0, 3, 0.0, 1.0, 0.0, 4, 0.0, 0.0, 1.0);

@@ -130,7 +130,13 @@ TEST(ReadVtk, InvalidFilesSayWhatIsWrong) {
     }
 }
 
-#ifndef __SANITIZE_ADDRESS__  // where memory has no limit
+#ifdef __has_feature
+#define TETRALUX_HAS_FEATURE(feature) __has_feature(feature)
+#else
+#define TETRALUX_HAS_FEATURE(feature) 0
+#endif
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !TETRALUX_HAS_FEATURE(address_sanitizer) && \
+    !TETRALUX_HAS_FEATURE(thread_sanitizer) && !TETRALUX_HAS_FEATURE(memory_sanitizer)  // with these it has no limit
 /// 216 million points in a file of a few hundred bytes, which holds no value for any of them.
 TEST(ReadVtk, SmallFilesGetLittleMemory) {
     const TemporaryFolder folder;

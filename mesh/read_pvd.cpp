@@ -60,6 +60,7 @@ std::vector<Part> readCollection(const std::string& source) {
 }
 
 CellSoup readCollectionAt(const std::string& source, std::optional<double> time) {
+    const bool isSeries = !hasExtension(source, {".pvtu"});
     const std::vector<Part> parts = readCollection(source);
     std::set<double> times;
     for (const Part& part : parts) {
@@ -76,12 +77,16 @@ CellSoup readCollectionAt(const std::string& source, std::optional<double> time)
                 throw std::runtime_error(
                     fmt::format("names {}, which is not there; put it there, or name the file that is", part.file));
             }
+            if (isSeries && hasExtension(part.file, {".pvtu"})) {
+                appendSoup(soup, readCollectionAt(file.string(), std::nullopt));
+                continue;
+            }
             vtkNew<vtkXMLGenericDataObjectReader> reader;
             reader->SetFileName(file.c_str());
             appendSoup(soup, soupFromReader(*reader, std::nullopt));
         }
     }
-    if (!hasExtension(source, {".pvtu"})) {
+    if (isSeries) {
         soup.times = steps;
     }
     return soup;

@@ -101,6 +101,11 @@ TEST(Formats, EmptyPiecesAreNoFault) {
         EXPECT_LT(largestError(result.mesh, smallMeshField), 1e-6);
         EXPECT_TRUE(result.times.empty());
     }
+    const ReadResult series = readMesh(folder.write(
+        "a.pvd",
+        "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"3\" file=\"a.pvtu\"/></Collection></VTKFile>"));
+    EXPECT_EQ(series.mesh.cells.size(), 2u);
+    EXPECT_EQ(series.times, std::vector<double>{3.0});
     expectError([&] { readMesh(empty); }, "empty.vtu: holds no cells");
     expectError([&] { readMesh(pieces("a.vtu", "gone.vtu")); }, "a.pvtu: names gone.vtu, which is not there");
     expectError([&] { readMesh(folder.write("b.pvtu", smallVtu())); }, "b.pvtu: is no mesh in pieces");

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <utility>
+
+#include <tbb/parallel_sort.h>
 
 #include <projection/cell_setup.h>
 #include <projection/float_limits.h>
@@ -32,8 +35,7 @@ public:
 
     Image render(const View& view, FrameReport& report) override {
         Image image = engine_->render(view, report);
-        const bool ties = dense_ && report.samplesBeside && !scene_.transferFunction.isosurfaces.empty();
-        if (ties || !beyondFloat_.empty()) doubtMore(view.camera, ties, report);
+        doubtMore(view.camera, report);
         if (scene_.settings.order == OrderMethod::Centroid) {  // asked for to see what it costs and what it spoils
             report.pixelsWrong += report.doubtfulPixels.size();
             return image;
@@ -50,30 +52,47 @@ public:
     }
 
 private:
-    /// Adds the pixels of cells beyond float and, if asked for, those where outlines of isosurfaces may be missed.
-    void doubtMore(const Camera& camera, bool ties, FrameReport& report) const {
+    /// Adds the pixels of cells beyond float, those where samples beside the centres may miss outlines and, where the
+    /// cell that a ray meets first shows, those where rounding would say which it is.
+    void doubtMore(const Camera& camera, FrameReport& report) const {
         const CameraFrame frame = cameraFrame(camera);
-        std::vector<bool> doubtful(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
-        for (std::uint32_t pixel : report.doubtfulPixels) doubtful[pixel] = true;
-        if (ties)
-            for (std::uint32_t pixel : tiedPixels(scene_, frame)) doubtful[pixel] = true;
-        if (!beyondFloat_.empty()) doubtCellsBeyondFloat(frame, doubtful);
-        report.doubtfulPixels.clear();
-        for (std::uint32_t pixel = 0; pixel < doubtful.size(); ++pixel)
-            if (doubtful[pixel]) report.doubtfulPixels.push_back(pixel);
+        std::vector<std::uint32_t> more;
+        if (dense_ && report.samplesBeside) more = tiedPixels(scene_, frame);
+        if (scene_.settings.mode == Mode::FirstHit && engine_->name() != "reference")
+            append(more, tiedEdgePixels(scene_, frame));
+        if (!beyondFloat_.empty()) append(more, pixelsBeyondFloat(frame));
+        if (more.empty()) return;
+        tbb::parallel_sort(more.begin(), more.end());
+        std::vector<std::uint32_t> all;
+        all.reserve(report.doubtfulPixels.size() + more.size());
+        std::merge(report.doubtfulPixels.begin(), report.doubtfulPixels.end(), more.begin(), more.end(),
+                   std::back_inserter(all));
+        all.erase(std::unique(all.begin(), all.end()), all.end());
+        report.doubtfulPixels = std::move(all);
     }
 
-    void doubtCellsBeyondFloat(const CameraFrame& frame, std::vector<bool>& doubtful) const {
+    /// Ascending.
+    std::vector<std::uint32_t> pixelsBeyondFloat(const CameraFrame& frame) const {
         const CellProjector projector(*scene_.mesh, sceneUnits(*scene_.mesh), frame);
-        const auto width = static_cast<std::uint32_t>(frame.width);
+        const auto width = static_cast<std::size_t>(frame.width);
+        std::vector<bool> doubtful(width * static_cast<std::size_t>(frame.height));
         for (mesh::CellIndex cell : beyondFloat_) {
             PixelRect rect;
             if (projector.bounds(cell, rect) == SkipReason::OutsideView) continue;
             // where such a cell ends is beyond float too, and engines look at whole blocks of pixels
+            const int x0 = std::max(0, rect.x0 - blockMargin), x1 = std::min(frame.width, rect.x1 + blockMargin);
             for (int y = std::max(0, rect.y0 - blockMargin); y < std::min(frame.height, rect.y1 + blockMargin); ++y)
-                for (int x = std::max(0, rect.x0 - blockMargin); x < std::min(frame.width, rect.x1 + blockMargin); ++x)
-                    doubtful[static_cast<std::uint32_t>(y) * width + static_cast<std::uint32_t>(x)] = true;
+                for (int x = x0; x < x1; ++x)
+                    doubtful[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = true;
         }
+        std::vector<std::uint32_t> pixels;
+        for (std::uint32_t pixel = 0; pixel < doubtful.size(); ++pixel)
+            if (doubtful[pixel]) pixels.push_back(pixel);
+        return pixels;
+    }
+
+    static void append(std::vector<std::uint32_t>& pixels, const std::vector<std::uint32_t>& more) {
+        pixels.insert(pixels.end(), more.begin(), more.end());
     }
 
     Scene scene_;

@@ -13,6 +13,7 @@
 
 #include <projection/edge_on_planes.h>
 #include <projection/point_pixel.h>
+#include <projection/transfer_support.h>
 
 namespace tetralux::projection {
 
@@ -26,6 +27,36 @@ bool jumpsAt(const Nodes& nodes, double value) {
 
 /// Pixels from the sample to the farthest line that it may lie behind.
 constexpr double tieDistance = 2.0 * EdgeOnPlanes::widely.x;
+
+/// The same for lines that are met exactly, as those of symmetric scenes are: by chance hardly any is.
+constexpr double exactDistance = 1e-7;
+
+/// Distances from a line to the centres of pixels that are asked for.
+struct Nearness {
+    double least, most;
+};
+constexpr Nearness near{0.0, tieDistance}, exact{0.0, exactDistance}, nearNotExact{exactDistance, tieDistance};
+
+/// Pixels whose centre the line from `a` to `b` passes at such a distance.
+void addNearLine(glm::dvec2 a, glm::dvec2 b, Nearness wanted, const CameraFrame& frame,
+                 std::vector<std::uint32_t>& pixels) {
+    const int steep = std::abs(b.y - a.y) >= std::abs(b.x - a.x) ? 1 : 0, other = 1 - steep;
+    const std::array size{frame.width, frame.height};
+    if (a[steep] > b[steep]) std::swap(a, b);
+    const double first = std::max(std::ceil(a[steep] - wanted.most), 0.0),
+                 last = std::min(std::floor(b[steep] + wanted.most), size[static_cast<std::size_t>(steep)] - 1.0);
+    for (double row = first; row <= last; ++row) {
+        const double length = b[steep] - a[steep];
+        const double share = length > 0 ? std::clamp((row - a[steep]) / length, 0.0, 1.0) : 0.0;
+        const double place = glm::mix(a[other], b[other], share), nearest = std::round(place);
+        const double distance = std::abs(place - nearest);
+        if (!(distance >= wanted.least && distance < wanted.most)) continue;
+        if (nearest < 0 || nearest >= size[static_cast<std::size_t>(other)]) continue;
+        const double x = steep == 1 ? nearest : row, y = steep == 1 ? row : nearest;
+        pixels.push_back(static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame.width) +
+                         static_cast<std::uint32_t>(x));
+    }
+}
 
 using Corners = std::array<glm::dvec2, 3>;
 
@@ -42,25 +73,6 @@ struct SeenFace {
     }
 };
 
-/// Pixels whose centre the line from `a` to `b` passes by less than tieDistance.
-void addNearLine(glm::dvec2 a, glm::dvec2 b, const CameraFrame& frame, std::vector<std::uint32_t>& pixels) {
-    const int steep = std::abs(b.y - a.y) >= std::abs(b.x - a.x) ? 1 : 0, other = 1 - steep;
-    const std::array size{frame.width, frame.height};
-    if (a[steep] > b[steep]) std::swap(a, b);
-    const double first = std::max(std::ceil(a[steep] - tieDistance), 0.0),
-                 last = std::min(std::floor(b[steep] + tieDistance), size[static_cast<std::size_t>(steep)] - 1.0);
-    for (double row = first; row <= last; ++row) {
-        const double length = b[steep] - a[steep];
-        const double share = length > 0 ? std::clamp((row - a[steep]) / length, 0.0, 1.0) : 0.0;
-        const double place = glm::mix(a[other], b[other], share), nearest = std::round(place);
-        if (!(std::abs(place - nearest) < tieDistance)) continue;
-        if (nearest < 0 || nearest >= size[static_cast<std::size_t>(other)]) continue;
-        const double x = steep == 1 ? nearest : row, y = steep == 1 ? row : nearest;
-        pixels.push_back(static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame.width) +
-                         static_cast<std::uint32_t>(x));
-    }
-}
-
 void addTies(const SeenFace& face, const CameraFrame& frame, std::vector<std::uint32_t>& pixels) {
     std::array<glm::dvec2, 2> ends;
     std::size_t count = 0;
@@ -70,13 +82,39 @@ void addTies(const SeenFace& face, const CameraFrame& frame, std::vector<std::ui
         ends[count++] = glm::mix(face.at[i], face.at[j], face.above[i] / (face.above[i] - face.above[j]));
         if (count == 2) break;
     }
-    if (count == 2 && !face.edgeOn()) addNearLine(ends[0], ends[1], frame, pixels);
+    if (count == 2 && !face.edgeOn()) addNearLine(ends[0], ends[1], near, frame, pixels);
 }
 
-/// Lines of an isosurface in the faces of one cell.
+/// Lines of an isosurface in the faces of one cell, and its edges.
 class CellTies {
 public:
-    CellTies(const Scene& scene, const CameraFrame& frame) : scene_(scene), frame_(frame), pixelOf_(frame) {}
+    CellTies(const Scene& scene, const CameraFrame& frame)
+        : scene_(scene),
+          frame_(frame),
+          pixelOf_(frame),
+          support_(extinctionSupport(scene.transferFunction)),
+          integral_(integralOf(scene.settings.mode)) {}
+
+    /// Pixels that an edge of the cell, if it shows, passes.
+    void addEdges(mesh::CellIndex cell, Nearness wanted, std::vector<std::uint32_t>& pixels) const {
+        std::array<glm::dvec2, 4> at;
+        if (!see(scene_.mesh->cells[cell], at) || !shows(cell)) return;
+        for (std::size_t i = 0; i < 4; ++i)
+            for (std::size_t j = i + 1; j < 4; ++j) addNearLine(at[i], at[j], wanted, frame_, pixels);
+    }
+
+    /// Pixels near, but not on, the edges of faces that are seen edge-on.
+    void addEdgeOnFaces(mesh::CellIndex cell, std::vector<std::uint32_t>& pixels) const {
+        std::array<glm::dvec2, 4> at;
+        if (!see(scene_.mesh->cells[cell], at)) return;
+        for (const auto& face : mesh::faceVertices) {
+            SeenFace seen{};
+            for (std::size_t i = 0; i < 3; ++i) seen.at[i] = at[static_cast<std::size_t>(face[i])];
+            if (!seen.edgeOn() || !shows(cell)) continue;
+            for (std::size_t i = 0; i < 3; ++i)
+                addNearLine(seen.at[i], seen.at[(i + 1) % 3], nearNotExact, frame_, pixels);
+        }
+    }
 
     void add(mesh::CellIndex cell, std::vector<std::uint32_t>& pixels) const {
         const mesh::ScalarMesh& mesh = *scene_.mesh;
@@ -100,6 +138,13 @@ public:
     }
 
 private:
+    bool shows(mesh::CellIndex cell) const {
+        std::array<double, 4> s;
+        for (std::size_t k = 0; k < 4; ++k) s[k] = scene_.mesh->scalarAt(cell, static_cast<int>(k));
+        const auto [low, high] = std::minmax_element(s.begin(), s.end());
+        return rangeShows(scene_.transferFunction, support_, *low, *high, integral_);
+    }
+
     /// Pixel coordinates of the corners; false where one is not in front of the eye.
     bool see(const mesh::Tetrahedron& cell, std::array<glm::dvec2, 4>& at) const {
         for (std::size_t k = 0; k < 4; ++k) {
@@ -114,21 +159,43 @@ private:
     const Scene& scene_;
     const CameraFrame& frame_;
     const PointPixel pixelOf_;
+    const std::vector<glm::dvec2> support_;
+    const preint::Integral integral_;
 };
+
+/// What add(cell, pixels) finds, for every `step`th cell.
+template <class Add>
+std::vector<std::uint32_t> ofCells(const Scene& scene, mesh::CellIndex step, Add add) {
+    tbb::enumerable_thread_specific<std::vector<std::uint32_t>> found;
+    const auto count = static_cast<mesh::CellIndex>((scene.mesh->cells.size() + step - 1) / step);
+    tbb::parallel_for(tbb::blocked_range<mesh::CellIndex>(0, count, 1024), [&](const auto& range) {
+        auto& mine = found.local();
+        for (mesh::CellIndex i = range.begin(); i != range.end(); ++i) add(i * step, mine);
+    });
+    std::vector<std::uint32_t> all;
+    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
 
 }  // namespace
 
 std::vector<std::uint32_t> tiedPixels(const Scene& scene, const CameraFrame& frame) {
     const CellTies ties(scene, frame);
-    tbb::enumerable_thread_specific<std::vector<std::uint32_t>> found;
-    const auto cells = static_cast<mesh::CellIndex>(scene.mesh->cells.size());
-    tbb::parallel_for(tbb::blocked_range<mesh::CellIndex>(0, cells, 4096), [&](const auto& range) {
-        auto& mine = found.local();
-        for (mesh::CellIndex cell = range.begin(); cell != range.end(); ++cell) ties.add(cell, mine);
+    return ofCells(scene, 1, [&](mesh::CellIndex cell, auto& pixels) {
+        ties.addEdgeOnFaces(cell, pixels);
+        if (!scene.transferFunction.isosurfaces.empty()) ties.add(cell, pixels);
     });
-    std::vector<std::uint32_t> all;
-    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-    return all;
+}
+
+std::vector<std::uint32_t> tiedEdgePixels(const Scene& scene, const CameraFrame& frame) {
+    constexpr mesh::CellIndex sampled = 4096;
+    const CellTies ties(scene, frame);
+    const mesh::CellIndex step =
+        static_cast<mesh::CellIndex>(scene.mesh->cells.size()) / sampled | 1;  // odd: in no rhythm of a grid
+    const auto met =
+        ofCells(scene, step, [&](mesh::CellIndex cell, auto& pixels) { ties.addEdges(cell, exact, pixels); });
+    if (met.size() < 2) return {};
+    return ofCells(scene, 1, [&](mesh::CellIndex cell, auto& pixels) { ties.addEdges(cell, near, pixels); });
 }
 
 Scene withTiesAbove(const Scene& scene, double share) {

@@ -33,6 +33,10 @@ namespace {
 /// aligned with the view. It moves the picture by some 1e-10.
 constexpr double rayShiftX = 0x1p-32, rayShiftY = 0x1p-33;
 
+/// A faint segment that is shorter than this share of a pixel is there only because the ray stands beside the centre:
+/// at the centre it touches the cell's edge, which is no hit.
+constexpr double touchedPixels = 0x1p-24;
+
 /// Some pixels of an image, or all: answers at once whether a rectangle holds any (Crow's summed-area table, 1984).
 class WantedPixels {
 public:
@@ -204,6 +208,7 @@ struct ReferenceRayCaster::Pass {
         PixelLimits limits = limitsAt(
             maps, static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x));
         limits.depths = depths;
+        (frame.orthographic ? limits.pixelAtEye : limits.pixelPerDistance) = glm::length(frame.perPixelRight);
         image.at(x, y) = glm::vec4(caster.colorOf(ray, limits, segments));
         segmentCount += segments.size();
         for (std::size_t i = 1; i < segments.size(); ++i)
@@ -461,7 +466,9 @@ glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, const preint::ExactInte
         case Mode::FirstHit:
             for (const RaySegment& segment : segments) {
                 const Shaded shaded = shade(exact, scene_, ray, segment, cutNormal, limits.depths);
-                if (shaded.opacity > 0) return {shaded.color / shaded.opacity, 1.0};
+                const double pixel = limits.pixelAtEye + limits.pixelPerDistance * segment.tOut;
+                const bool touched = segment.tOut - segment.tIn < touchedPixels * pixel && shaded.opacity < 1e-6;
+                if (shaded.opacity > 0 && !touched) return {shaded.color / shaded.opacity, 1.0};
             }
             return glm::dvec4(0);
     }

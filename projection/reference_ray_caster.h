@@ -56,8 +56,9 @@ private:
         double nearest = 0.0, farthest = HUGE_VAL;
         glm::dvec3 cutNormal{0};  ///< used for light where a segment begins at `nearest`; 0: none
         double extinctionScale = 1.0;
-        DepthRange depths{0.0, 1.0};  ///< of the camera, the same for all pixels
-        std::span<const Veil> veils;  ///< of the pixel, by distance
+        DepthRange depths{0.0, 1.0};                      ///< of the camera, the same for all pixels
+        std::span<const Veil> veils;                      ///< of the pixel, by distance
+        double pixelAtEye = 0.0, pixelPerDistance = 0.0;  ///< size of a pixel where a ray begins, and beyond
     };
     static PixelLimits limitsAt(const PixelMaps* maps, std::size_t pixel);
     glm::dvec4 colorOf(const Ray& ray, const PixelLimits& limits, std::vector<RaySegment>& segments) const;

@@ -153,6 +153,39 @@ TEST(OrderUpkeep, KeptAndRepairedOrdersAreRight) {
     }
 }
 
+TEST(RoundedPlanes, SayOnlyWhatTheExactPredicateSays) {
+    const mesh::ScalarMesh jittered = jitteredBoxMesh(9, 0.3, 5, plain);
+    mesh::ScalarMesh far = jittered, flat = jittered;
+    for (glm::dvec3& p : far.positions) p += glm::dvec3(1e7, 2e7, -1e7);
+    for (glm::dvec3& p : flat.positions) p.y *= 1e-6;
+    std::size_t told = 0, all = 0;
+    for (const mesh::ScalarMesh& m :
+         {jittered, finished(std::move(far)), finished(std::move(flat)), boxMesh(9, plain)}) {
+        const RoundedPlanes planes(m);
+        std::vector<std::uint8_t> sides(m.cells.size());
+        Camera parallel = cameraAt(m.bounds.centre() + glm::dvec3(0, 0, 3), m.bounds.centre());
+        parallel.orthographicHeight = 1;
+        const glm::dvec3 corner = m.positions[m.cells[100][0]];
+        for (const Camera& camera : {cameraAt(m.bounds.centre() + glm::dvec3(0.9, 0.4, 1.3), m.bounds.centre()),
+                                     cameraAt(corner, m.bounds.centre() + glm::dvec3(0.1)), parallel,
+                                     cameraAt(m.bounds.centre() + glm::dvec3(3e5, 1e5, 2e5), m.bounds.centre())}) {
+            const CellProjector projector(m, sceneUnits(m), cameraFrame(camera));
+            planes.sides(0, m.cells.size(), planes.eye(projector.frame()), sides.data());
+            for (mesh::CellIndex cell = 0; cell < m.cells.size(); ++cell) {
+                const std::array<double, 4> exact = projector.eyeSides(cell);
+                for (unsigned k = 0; k < 4; ++k) {
+                    const bool outside = sides[cell] >> k & 1u, inside = sides[cell] >> (4 + k) & 1u;
+                    EXPECT_FALSE(outside && !(exact[k] < 0)) << cell;
+                    EXPECT_FALSE(inside && !(exact[k] > 0)) << cell;
+                    told += outside || inside ? 1 : 0;
+                    ++all;
+                }
+            }
+        }
+    }
+    EXPECT_GT(told, all / 2) << "a filter that says nothing is of no use";
+}
+
 TEST(OrderUpkeep, RepairMovesFewCellsOrSaysNo) {
     const mesh::ScalarMesh m = jitteredBoxMesh(6, 0.2, 5, plain);
     const mesh::Adjacency adjacency = mesh::buildAdjacency(m.cells, m.positions.size());

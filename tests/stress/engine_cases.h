@@ -37,22 +37,28 @@ inline projection::Image referenceImage(const projection::Scene& scene, const pr
     return projection::ReferenceRayCaster(scene).render(camera, counts);
 }
 
-/// Renders by every engine and compares with `expected`; prints the errors. `what` names the case.
+/// Renders and compares with `expected`; prints the errors. `what` names the case.
+inline void holdPictureTo(const projection::Image& expected, projection::Engine& engine,
+                          const projection::Camera& camera, Threshold threshold, const std::string& what) {
+    projection::FrameReport report;
+    const projection::Image image = engine.render(camera, report);
+    for (const glm::vec4& pixel : image.pixels)
+        for (int channel = 0; channel < 4; ++channel)
+            ASSERT_TRUE(std::isfinite(pixel[channel])) << "a pixel is not finite";
+    const projection::ImageDifference difference = projection::compareImages(image, expected);
+    std::printf("%-58s %-10s rmse %.1e max %.1e repaired %llu\n", what.c_str(), engine.name().c_str(), difference.rmse,
+                difference.max, static_cast<unsigned long long>(report.pixelsRepaired));
+    EXPECT_LE(difference.rmse, threshold.rmse);
+    EXPECT_LE(difference.max, threshold.max);
+    EXPECT_EQ(report.pixelsWrong, 0u);
+}
+
+/// The same by every engine.
 inline void holdEnginesTo(const projection::Image& expected, const projection::Scene& scene,
                           const projection::Camera& camera, Threshold threshold, const std::string& what) {
     for (const auto& options : enginesUnderTest()) {
         SCOPED_TRACE(what + ", engine " + options.engine);
-        projection::FrameReport report;
-        const projection::Image image = projection::makeEngine(scene, options)->render(camera, report);
-        for (const glm::vec4& pixel : image.pixels)
-            for (int channel = 0; channel < 4; ++channel)
-                ASSERT_TRUE(std::isfinite(pixel[channel])) << "a pixel is not finite";
-        const projection::ImageDifference difference = projection::compareImages(image, expected);
-        std::printf("%-58s %-10s rmse %.1e max %.1e repaired %llu\n", what.c_str(), options.engine.c_str(),
-                    difference.rmse, difference.max, static_cast<unsigned long long>(report.pixelsRepaired));
-        EXPECT_LE(difference.rmse, threshold.rmse);
-        EXPECT_LE(difference.max, threshold.max);
-        EXPECT_EQ(report.pixelsWrong, 0u);
+        holdPictureTo(expected, *projection::makeEngine(scene, options), camera, threshold, what);
     }
 }
 

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays that meet exactly the value of an isosurface where the scalar turns or the mesh begins: s = v is not below v, in
 // every pixel, whatever rounding says. The pictures are known.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <tests/stress/engine_cases.h>
 
@@ -97,6 +102,52 @@ TEST(StressTies, PlateausOfTheIsosurfacesValue) {
         for (glm::vec4& pixel : expected.pixels) pixel = glm::vec4(turn > 0 ? twice : never);
         holdEnginesTo(expected, scene, camera, exact, turn > 0 ? "plateau" : "valley");
     }
+}
+
+/// Whether `p` lies in the cell, its boundary included.
+bool holds(const mesh::ScalarMesh& m, const mesh::Tetrahedron& cell, const glm::dvec3& p) {
+    for (const auto& face : mesh::faceVertices) {
+        const auto corner = [&](std::size_t k) { return m.positions[cell[static_cast<std::size_t>(face[k])]]; };
+        if (mesh::sixVolumes(corner(0), corner(1), corner(2), p) > 1e-12) return false;
+    }
+    return true;
+}
+
+TEST(StressTies, TheFirstHitIsNoCellThatTheRayOnlyTouches) {
+    // rays through pixel centres run along diagonals of the cubes' faces, where cells end in edges
+    mesh::ScalarMesh m = boxMesh(5, [](const glm::dvec3& p) { return p.x; });
+    m.association = mesh::Association::Cell;
+    m.scalars.resize(m.cells.size());
+    for (std::size_t i = 0; i < m.cells.size(); ++i) m.scalars[i] = std::fmod(0.618 * static_cast<double>(i), 1.0);
+    preint::TransferFunction function;
+    function.color = {{0.0, {1, 0, 0}}, {1.0, {0, 1, 0.5}}};
+    function.extinction = {{0.0, 5.0}};
+    const Scene scene = sceneOf(finished(std::move(m)), function, Mode::FirstHit);
+    const mesh::ScalarMesh& drawn = *scene.mesh;
+    for (int along = 0; along < 3; ++along)
+        for (const auto& options : enginesUnderTest()) {
+            const Camera camera = latticeCamera(along, 1.0);
+            const CameraFrame frame = cameraFrame(camera);
+            FrameReport report;
+            const Image image = makeEngine(scene, options)->render(camera, report);
+            int onEdges = 0;
+            for (int y = 0; y < camera.height; ++y)
+                for (int x = 0; x < camera.width; ++x) {
+                    const Ray ray = pixelRay(frame, x, y);
+                    const glm::dvec3 justInside = ray.origin + (1.5 + 1e-5) * ray.direction;
+                    double nearest = 1.0;
+                    int cells = 0;
+                    for (std::size_t i = 0; i < drawn.cells.size(); ++i) {
+                        if (!holds(drawn, drawn.cells[i], justInside)) continue;
+                        ++cells;
+                        const glm::dvec3 off = glm::dvec3(image.at(x, y)) - function.colorAt(drawn.scalars[i]);
+                        nearest = std::min(nearest, glm::length(off));
+                    }
+                    onEdges += cells > 1 ? 1 : 0;
+                    EXPECT_LT(nearest, 1e-5) << options.engine << ", axis " << along << ", pixel " << x << ' ' << y;
+                }
+            EXPECT_GT(onEdges, 10) << "no ray runs between cells: nothing was tested";
+        }
 }
 
 }  // namespace

@@ -286,7 +286,7 @@ Camera randomCamera(std::uint32_t seed) {
 }
 
 /// A thousand scenes by the tile engine, and a thousand by OpenGL, shared out between contexts. An OpenGL engine
-/// compiles a program, which takes ten times as long as such a picture: so it shows its mesh twice.
+/// compiles a program, which takes ten times as long as such a picture: so it shows its mesh four times.
 struct Share {
     const char *name, *engine, *context;
     std::uint32_t first, meshes, views;
@@ -325,8 +325,8 @@ TEST_P(RandomScenes, AreDrawnAsTheReferenceDrawsThem) {
 
 INSTANTIATE_TEST_SUITE_P(Stress, RandomScenes,
                          ::testing::Values(Share{"cpu", "cpu", "auto", 0, 1000, 1},
-                                           Share{"gl_egl", "gl", "egl", 0, 250, 2},
-                                           Share{"gl_osmesa", "gl", "osmesa", 250, 250, 2}),
+                                           Share{"gl_egl", "gl", "egl", 0, 125, 4},
+                                           Share{"gl_osmesa", "gl", "osmesa", 125, 125, 4}),
                          [](const auto& testCase) { return std::string(testCase.param.name); });
 
 }  // namespace

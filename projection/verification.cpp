@@ -18,6 +18,9 @@ namespace {
 
 constexpr double normalQuantile95 = 1.6449;
 
+/// Pixels of as many as were sampled that may be worse than the worst seen, with 95 % confidence; and how much worse.
+constexpr double unseenPixels = 3.0, unseenFactor = 3.0;
+
 std::vector<std::uint32_t> chosenPixels(std::size_t pixelCount, std::size_t samples, std::uint32_t seed) {
     std::vector<std::uint32_t> all(pixelCount), chosen;
     std::iota(all.begin(), all.end(), 0u);
@@ -43,7 +46,7 @@ Verification verifyImage(const Image& image, const Scene& scene, const View& vie
     Verification result;
     result.pixels = pixels.size();
     if (pixels.empty()) return result;
-    double sum = 0, sumOfSquares = 0;
+    double sum = 0, sumOfSquares = 0, worst = 0;
     for (std::uint32_t pixel : pixels) {
         const glm::dvec4 difference = glm::dvec4(image.pixels[pixel]) - glm::dvec4(exact.pixels[pixel]);
         double square = 0;
@@ -55,6 +58,7 @@ Verification verifyImage(const Image& image, const Scene& scene, const View& vie
         }
         sum += square;
         sumOfSquares += square * square;
+        worst = std::max(worst, square);
     }
     const double n = static_cast<double>(pixels.size()), all = static_cast<double>(image.pixels.size());
     const double mean = sum / n;
@@ -62,8 +66,9 @@ Verification verifyImage(const Image& image, const Scene& scene, const View& vie
     const double unsampled =
         all > 1 ? (all - n) / (all - 1) : 0.0;  // nothing is uncertain once every pixel is in the sample
     result.rmse = std::sqrt(mean);
-    result.rmseBound = std::sqrt(mean + normalQuantile95 * std::sqrt(variance / n * unsampled));
-    result.unseenShare = n < all ? std::min(1.0, 3.0 / n) : 0.0;
+    const double tail = unseenPixels / n * unseenFactor * unseenFactor * worst;
+    result.rmseBound = std::sqrt(mean + normalQuantile95 * std::sqrt(variance / n * unsampled) + tail * unsampled);
+    result.unseenShare = n < all ? std::min(1.0, unseenPixels / n) : 0.0;
     return result;
 }
 

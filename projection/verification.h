@@ -16,8 +16,11 @@ namespace tetralux::projection {
 struct Verification {
     std::size_t pixels = 0;  ///< how many were computed again
     double rmse = 0.0;       ///< estimate for the whole image
-    /// 95 % upper confidence bound of rmse: normal approximation of the mean of squared errors, for sampling without
-    /// replacement.
+    /// 95 % upper confidence bound of rmse. Errors of pictures have long tails, of which a sample may miss the end: the
+    /// normal bound of the mean of squared errors holds in 56 to 92 of 100 samples only. So three pixels in as many as
+    /// were sampled (the rule of three) are taken to be three times as wrong as the worst that was seen. That held in
+    /// 96 of 100 samples of 1000 pixels and more, on smooth pictures, isosurfaces, first hits and cells in a wrong
+    /// order. A single wrong pixel that no sample meets is not in it: `unseenShare` says how many there may be.
     double rmseBound = 0.0;
     double max = 0.0;  ///< largest difference found
     /// With 95 % confidence at most this share of all pixels differs by more than `max` (rule of three).

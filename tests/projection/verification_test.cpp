@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <random>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -53,6 +54,22 @@ TEST_F(VerifyImage, BoundsTheErrorOfNoise) {
         held += v.rmseBound >= rmse ? 1 : 0;
     }
     EXPECT_GE(held, 34) << "a 95 % bound holds 38 times of 40 on average";
+}
+
+TEST_F(VerifyImage, BoundsErrorsOfLongTails) {
+    // log-normal, as errors of pictures are: most of the rmse comes from few pixels
+    Image wrong = exact;
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal(0, 1.2);
+    for (glm::vec4& pixel : wrong.pixels) pixel.x += static_cast<float>(1e-4 * std::exp(normal(random)));
+    const double rmse = compareImages(wrong, exact).rmse;
+    int held = 0;
+    for (std::uint32_t seed = 0; seed < 100; ++seed) {
+        const Verification v = verifyImage(wrong, scene, camera, 300, seed);
+        held += v.rmseBound >= rmse ? 1 : 0;
+        EXPECT_LE(v.rmseBound, 3 * rmse) << "a bound that is no use";
+    }
+    EXPECT_GE(held, 95);
 }
 
 TEST_F(VerifyImage, ANaNIsNoMatch) {

@@ -60,7 +60,6 @@ void describeFirstFrame(const FrameReport& report, BenchRow& row) {
     row.cellsSorted = report.cellsSorted;
     row.fragments = report.fragments;
     row.orderMethod = report.orderMethod;
-    row.dataPath = report.dataPath;
     row.bytesUploaded = report.bytesUploaded;
     row.tileEntries = report.tileEntries;
     row.tileEntriesSaved = report.tileEntriesSaved;
@@ -77,6 +76,12 @@ std::map<std::string, double> stageMedians(const std::vector<FrameReport>& repor
         medians[stage] = median(values);
     }
     return medians;
+}
+
+void describeFrames(const std::vector<FrameReport>& reports, BenchRow& row) {
+    describeFirstFrame(reports.front(), row);
+    row.dataPath = reports.back().dataPath;  // where it is chosen by measurement, it is chosen by then
+    row.stageMilliseconds = stageMedians(reports);
 }
 
 /// The largest resident memory while an engine works, without what the benchmark itself needs between frames.
@@ -129,8 +134,7 @@ void drawFrames(Engine& engine, const projection::Scene& scene, const ReferenceI
         }
         reports.push_back(std::move(report));
     }
-    describeFirstFrame(reports.front(), row);
-    row.stageMilliseconds = stageMedians(reports);
+    describeFrames(reports, row);
 }
 
 projection::Scene withChoice(projection::Scene scene, const EngineChoice& choice) {
@@ -199,8 +203,7 @@ ReferenceImages judge(const projection::Scene& scene, const BenchSubject& subjec
                                                reports.emplace_back()));
         result.row.frameMilliseconds.push_back(watch.milliseconds());
     }
-    describeFirstFrame(reports.front(), result.row);
-    result.row.stageMilliseconds = stageMedians(reports);
+    describeFrames(reports, result.row);
     memory.pause();
     memory.tell(result.row);
     result.row.judged = true;

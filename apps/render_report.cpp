@@ -81,6 +81,17 @@ json previewJson(const projection::Preview& preview, double promised) {
             {"grid", preview.gridPoints}};
 }
 
+/// Of the last frame, by when a path that is chosen by measurement is; and how many frames took each.
+json glJson(const RenderRecord& record) {
+    const FrameReport& last = record.frames.back();
+    json frames = json::object();
+    for (const FrameReport& frame : record.frames) frames[frame.dataPath] = frames.value(frame.dataPath, 0) + 1;
+    return {{"path", last.dataPath},
+            {"why", last.dataPathReason},
+            {"bytes_uploaded", last.bytesUploaded},
+            {"frames", frames}};
+}
+
 /// How many frames sorted anew, kept the last frame's order or repaired it.
 json upkeepJson(const RenderRecord& record) {
     json counts = json::object();
@@ -142,9 +153,7 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
         {"pixels", {{"repaired", repaired}, {"wrong", wrong}}},
         {"peak_memory_bytes", peakMemoryBytes()},
     };
-    if (!first.dataPath.empty())
-        report["gl"] = {
-            {"path", first.dataPath}, {"why", first.dataPathReason}, {"bytes_uploaded", first.bytesUploaded}};
+    if (!first.dataPath.empty()) report["gl"] = glJson(record);
     if (record.verification) report["verification"] = verificationJson(*record.verification);
     if (options.maxError) {
         report["verification"]["max_error"] = *options.maxError;

@@ -355,13 +355,11 @@ void GlEngine::drawRaster(const CameraFrame& frame, const GlCellProgram& cellPro
 
 void GlEngine::drawTiles(const CameraFrame& frame, const GlCellProgram& cellProgram,
                          const std::vector<mesh::CellIndex>* order, FrameReport& report) {
-    Stopwatch watch;
     const double margin = outlineMargin(*state_->gl, frame);
     do {
         state_->target->begin(frame.width, frame.height, clearValue(mode()));
         state_->resident->drawTiles(frame, order, margin, *state_->tiles, state_->target->texture(),
                                     [&] { cellProgram.resume(); });
-        report.stageMilliseconds["upload"] += watch.lap();
     } while (state_->tiles->overflowed());
     const GlTileCounts counts = state_->tiles->counts();
     report.fragments = counts.fragments;
@@ -376,6 +374,7 @@ bool GlEngine::drawInOrder(const View& view, const CameraFrame& frame, GlDrawing
     Stopwatch watch;
     auto& stages = report.stageMilliseconds;
     const GlCellProgram& cellProgram = beginFrame(view, frame, way);
+    stages["draw"] = watch.lap();
     order_->describe(report);
     const std::vector<mesh::CellIndex>* order = nullptr;
     if (order_->ofWholeMesh()) {
@@ -429,8 +428,12 @@ Image GlEngine::render(const View& view, FrameReport& report) {
     report.samplesBeside = frame.sampleShift == EdgeOnPlanes::widely;
     const CurrentGlContext current(*context_);
     report.dataPathReason = path_.reason;
-    if (!state_->resident || !drawResident(view, frame, report)) {
+    bool drawn = false;
+    if (state_->resident) {
+        drawn = drawResident(view, frame, report);
         watch.lap();
+    }
+    if (!drawn) {
         const GlCellProgram& cellProgram = beginFrame(view, frame, GlDrawing::Raster);
         stages["draw"] += watch.lap();
         drawStreamed(frame, cellProgram, report);

@@ -40,7 +40,7 @@ struct TableOptions {
     int size = 0;               ///< texels per zone and scalar axis; 0: the smallest that keeps wantedError
     int lengthSlices = 0;       ///< 3D only; 0: chosen
     int threads = 0;            ///< 0: all
-    /// Try first, with up to 8 MiB, texels that lie evenly over each zone and hold extinction too: no `warp`, no
+    /// Try first, with up to 16 MiB, texels that lie evenly over each zone and hold extinction too: no `warp`, no
     /// `ramps`. The cheapest look-up, for engines to which arithmetic costs more than texels.
     bool evenTexelsFirst = false;
 };

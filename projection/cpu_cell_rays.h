@@ -48,6 +48,23 @@ HWY_INLINE void cellInterval(const CellBatch& batch, std::size_t j, const FaceOr
     }
 }
 
+/// The pixels of a cell, the faces that bound its rays, and the pieces of the transfer function that it meets.
+struct CellBlocks {
+    std::size_t j;
+    const FaceOrder* order;
+    int x0, y0, x1, y1;
+    std::size_t first, last;
+};
+
+/// A block of pixels of one cell.
+struct Block {
+    std::size_t j, at;          ///< cell of the batch, place in the accumulators
+    int x, y;                   ///< first pixel within the tile
+    real dx, dy, in, out;       ///< pixels from the cell's reference point, nearness there
+    real rayLength;             ///< per unit depth
+    [[maybe_unused]] mask cut;  ///< where a limit cuts the front
+};
+
 /// scalarFall of the block's rays in cell j.
 template <bool Orthographic>
 HWY_INLINE real cellFall(const CellBatch& batch, std::size_t j, real dx, real dy) {

@@ -143,22 +143,25 @@ private:
             findPieces<Peaks>(*frame_.transfer, batch_, j, first, last);
         }
         if constexpr (look != Look::General) setLook<look>(frame_.look, batch_, j, look_);
-        const auto drawBlocks = [&]<CellShows shows>() HWY_ATTR {
-            for (int x = xBegin; x < x1; x += columnWidth) {
-                const real dx = laneX_ + real(batch_.offsetX[j] + static_cast<float>(x));
-                for (int y = yBegin; y < y1; y += rows) {
-                    const real dy = laneY_ + real(batch_.offsetY[j] + static_cast<float>(y));
-                    real in, out;
-                    cellInterval(batch_, j, order, dx, dy, in, out);
-                    drawBlock<shows>(j, placeInTile(x, y), x, y, dx, dy, in, out, first, last);
-                }
-            }
-        };
+        const CellBlocks blocks{j, &order, xBegin, yBegin, x1, y1, first, last};
         if constexpr (looksAtPeaks && look == Look::Silhouettes) {
             if (HWY_LIKELY(peakLooks_.peak[j] != nullptr && look_.gradient > 0 && peakLooks_.narrow(j)))
-                return drawBlocks.template operator()<CellShows::NarrowPeak>();
+                return drawBlocks<CellShows::NarrowPeak>(blocks);
         }
-        drawBlocks.template operator()<CellShows::Anything>();
+        drawBlocks<CellShows::Anything>(blocks);
+    }
+
+    template <CellShows shows>
+    HWY_INLINE void drawBlocks(const CellBlocks& cell) {
+        for (int x = cell.x0; x < cell.x1; x += columnWidth) {
+            const real dx = laneX_ + real(batch_.offsetX[cell.j] + static_cast<float>(x));
+            for (int y = cell.y0; y < cell.y1; y += rows) {
+                const real dy = laneY_ + real(batch_.offsetY[cell.j] + static_cast<float>(y));
+                real in, out;
+                cellInterval(batch_, cell.j, *cell.order, dx, dy, in, out);
+                drawBlock<shows>(cell.j, placeInTile(x, y), x, y, dx, dy, in, out, cell.first, cell.last);
+            }
+        }
     }
 
     template <CellShows shows>
@@ -249,15 +252,6 @@ private:
             addAcrossPieces<ScaleInvariant>(transfer, first, last, segments, sink);
         }
     }
-
-    /// A block of pixels of one cell.
-    struct Block {
-        std::size_t j, at;          ///< cell of the batch, place in the accumulators
-        int x, y;                   ///< first pixel within the tile
-        real dx, dy, in, out;       ///< pixels from the cell's reference point, nearness there
-        real rayLength;             ///< per unit depth
-        [[maybe_unused]] mask cut;  ///< where a limit cuts the front
-    };
 
     template <CellShows shows>
     HWY_INLINE void integrateLooked(const Block& block, std::size_t first, std::size_t last, const Segments& segments,

@@ -10,7 +10,7 @@
 #include <mesh/tet_mesh.h>
 #include <preint/transfer_function.h>
 #include <projection/camera.h>
-#include <projection/image.h>
+#include <projection/image/image.h>
 
 namespace CLI {
 class App;

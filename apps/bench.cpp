@@ -19,7 +19,7 @@
 #include <apps/commands.h>
 #include <apps/plot.h>
 #include <apps/report_text.h>
-#include <projection/whole_file.h>
+#include <projection/image/whole_file.h>
 
 namespace tetralux::apps {
 

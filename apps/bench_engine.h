@@ -10,7 +10,7 @@
 
 #include <apps/bench_row.h>
 #include <projection/engine.h>
-#include <projection/image.h>
+#include <projection/image/image.h>
 #include <projection/scene.h>
 
 namespace tetralux::apps {

@@ -15,11 +15,11 @@
 #include <mesh/adjacency.h>
 #include <preint/exact_integral.h>
 #include <preint/preintegration_table.h>
-#include <projection/cell_setup.h>
-#include <projection/cpu_bins.h>
+#include <projection/cells/cell_setup.h>
+#include <projection/cpu/cpu_bins.h>
 #include <projection/engine.h>
-#include <projection/power_order.h>
-#include <projection/visibility_order.h>
+#include <projection/order/power_order.h>
+#include <projection/order/visibility_order.h>
 
 namespace tetralux::apps {
 namespace {

@@ -14,8 +14,8 @@
 #include <apps/bench_vtk_rows.h>
 #include <apps/option_values.h>
 #include <projection/engine.h>
-#include <projection/gl_context.h>
-#include <projection/gl_path.h>
+#include <projection/gl/gl_context.h>
+#include <projection/gl/gl_path.h>
 
 namespace tetralux::apps {
 

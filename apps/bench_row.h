@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <projection/image.h>
+#include <projection/image/image.h>
 
 namespace tetralux::apps {
 

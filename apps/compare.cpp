@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include <apps/commands.h>
-#include <projection/image.h>
-#include <projection/image_structure.h>
+#include <projection/image/image.h>
+#include <projection/image/image_structure.h>
 
 namespace tetralux::apps {
 

@@ -13,7 +13,7 @@
 #include <preint/transfer_function.h>
 #include <projection/camera.h>
 #include <projection/engine.h>
-#include <projection/image.h>
+#include <projection/image/image.h>
 
 using namespace tetralux;
 

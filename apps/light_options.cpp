@@ -13,7 +13,7 @@
 
 #include <apps/add_option.h>
 #include <apps/option_values.h>
-#include <projection/lighting_file.h>
+#include <projection/light/lighting_file.h>
 
 namespace tetralux::apps {
 

@@ -8,7 +8,7 @@
 
 #include <glm/vec3.hpp>
 
-#include <projection/opaque_objects.h>
+#include <projection/opaque/opaque_objects.h>
 
 namespace CLI {
 class App;

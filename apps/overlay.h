@@ -9,7 +9,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include <projection/image.h>
+#include <projection/image/image.h>
 
 namespace tetralux::apps {
 

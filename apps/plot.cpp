@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include <apps/plot_canvas.h>
-#include <projection/whole_file.h>
+#include <projection/image/whole_file.h>
 
 namespace tetralux::apps {
 

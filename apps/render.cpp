@@ -19,8 +19,8 @@
 #include <apps/render_report.h>
 #include <apps/render_scene.h>
 #include <apps/report_text.h>
-#include <projection/image.h>
-#include <projection/whole_file.h>
+#include <projection/image/image.h>
+#include <projection/image/whole_file.h>
 
 namespace tetralux::apps {
 

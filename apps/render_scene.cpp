@@ -18,7 +18,7 @@
 #include <mesh/volume_samples.h>
 #include <preint/equidistant_isosurfaces.h>
 #include <preint/transfer_function.h>
-#include <projection/opaque_layer.h>
+#include <projection/opaque/opaque_layer.h>
 
 namespace tetralux::apps {
 

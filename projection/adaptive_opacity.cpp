@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <projection/amount_map.h>
-#include <projection/cell_setup.h>
+#include <projection/cells/cell_setup.h>
 #include <projection/wrapped_engine.h>
 
 namespace tetralux::projection {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include <projection/image.h>
+#include <projection/image/image.h>
 #include <projection/pixel_maps.h>
 #include <projection/scene.h>
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <projection/camera.h>
-#include <projection/image.h>
+#include <projection/image/image.h>
 #include <projection/pixel_maps.h>
 #include <projection/scene.h>
 

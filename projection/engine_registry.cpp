@@ -6,15 +6,15 @@
 #include <fmt/ranges.h>
 
 #include <projection/adaptive_opacity.h>
-#include <projection/cpu_engine.h>
+#include <projection/cpu/cpu_engine.h>
 #include <projection/engine.h>
-#include <projection/exact_repair.h>
-#include <projection/gl_engine.h>
-#include <projection/isosurface_ties.h>
-#include <projection/light_frame.h>
-#include <projection/reference_engine.h>
+#include <projection/gl/gl_engine.h>
+#include <projection/light/light_frame.h>
+#include <projection/opaque/veiled_volume.h>
+#include <projection/order/exact_repair.h>
+#include <projection/order/isosurface_ties.h>
+#include <projection/reference/reference_engine.h>
 #include <projection/scalar_range.h>
-#include <projection/veiled_volume.h>
 #include <projection/view_maps.h>
 
 namespace tetralux::projection {

@@ -11,7 +11,7 @@
 #include <glm/vec4.hpp>
 
 #include <projection/camera.h>
-#include <projection/image.h>
+#include <projection/image/image.h>
 
 namespace tetralux::projection {
 

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include <projection/reference_ray_caster.h>
+#include <projection/reference/reference_ray_caster.h>
 #include <projection/scalar_range.h>
 
 namespace tetralux::projection {

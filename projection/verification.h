@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include <projection/camera.h>
-#include <projection/image.h>
+#include <projection/image/image.h>
 #include <projection/scene.h>
 
 namespace tetralux::projection {

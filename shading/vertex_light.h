@@ -28,7 +28,8 @@ struct VertexLight {
 };
 
 /// The attributes that `settings` need, and samples if they are `sampled`. What takes a transfer function is left for
-/// others to set (projection/light_shadows.h, projection/vertex_samples.h): shadows and specular factors are 1.
+/// others to set (projection/light/light_shadows.h, projection/light/vertex_samples.h): shadows and specular factors
+/// are 1.
 VertexLight vertexLight(const mesh::ScalarMesh& mesh, const ShadingSettings& settings, bool sampled);
 
 }  // namespace tetralux::shading

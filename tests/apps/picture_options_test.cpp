@@ -3,7 +3,7 @@
 // tetralux render: slices, surfaces, window, annotation, preview; compare --structure.
 #include <cmath>
 
-#include <projection/image.h>
+#include <projection/image/image.h>
 
 #include "command_line_test.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // tetralux render, info and compare, from files to files.
-#include <projection/image.h>
+#include <projection/image/image.h>
 
 #include <cmath>
 #include <functional>

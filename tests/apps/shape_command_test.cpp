@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // tetralux render: limits, modes, classification, silhouettes, isosurfaces, adaptive opacity.
-#include <projection/image.h>
+#include <projection/image/image.h>
 
 #include <cmath>
 

@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 
 #include <mesh/adjacency.h>
-#include <projection/cell_interval.h>
-#include <projection/cell_setup.h>
-#include <projection/reference_ray_caster.h>
+#include <projection/cells/cell_interval.h>
+#include <projection/cells/cell_setup.h>
+#include <projection/reference/reference_ray_caster.h>
 #include <tests/support/analytic_scenes.h>
 
 namespace tetralux::projection {

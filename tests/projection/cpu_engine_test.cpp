@@ -12,10 +12,10 @@
 #include <glm/geometric.hpp>
 
 #include <mesh/procedural_field.h>
-#include <projection/cell_setup.h>
-#include <projection/cpu_engine.h>
-#include <projection/exact_repair.h>
-#include <projection/reference_ray_caster.h>
+#include <projection/cells/cell_setup.h>
+#include <projection/cpu/cpu_engine.h>
+#include <projection/order/exact_repair.h>
+#include <projection/reference/reference_ray_caster.h>
 #include <tests/support/analytic_scenes.h>
 #include <tests/support/engine_pictures.h>
 

@@ -7,10 +7,10 @@
 
 #include <preint/exact_integral.h>
 #include <preint/glsl_prelude.h>
-#include <projection/cpu_transfer.h>
+#include <projection/cpu/cpu_transfer.h>
 
 namespace tetralux::glsl {
-#include <projection/cpu_piece.glsl>
+#include <projection/cpu/cpu_piece.glsl>
 }
 
 namespace tetralux::projection {

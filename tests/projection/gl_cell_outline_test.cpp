@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <projection/gl_cell_outline.h>
+#include <projection/gl/gl_cell_outline.h>
 
 #include <gtest/gtest.h>
 

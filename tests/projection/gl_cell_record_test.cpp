@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include <projection/cell_setup.h>
-#include <projection/gl_cell_stream.h>
-#include <projection/gl_functions.h>
-#include <projection/gl_shader_text.h>
+#include <projection/cells/cell_setup.h>
+#include <projection/gl/gl_cell_stream.h>
+#include <projection/gl/gl_functions.h>
+#include <projection/gl/gl_shader_text.h>
 
 namespace tetralux::projection {
 namespace {
@@ -47,7 +47,7 @@ void main() {
 // The record's fields as the shader names them, in the order of the struct.
 std::array<float, 24> echoed(const GlFunctions& gl, const CellRecord& record) {
     const std::string source =
-        "#version 430 core\n" + std::string(glShaderText("projection/gl_cell_record.glsl")) + echoMain;
+        "#version 430 core\n" + std::string(glShaderText("projection/gl/gl_cell_record.glsl")) + echoMain;
     const char* text = source.c_str();
     const GLuint program = gl.CreateShaderProgramv(GL_COMPUTE_SHADER, 1, &text);
     GLint linked = GL_FALSE;

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string>
 
-#include <projection/gl_context.h>
-#include <projection/gl_functions.h>
+#include <projection/gl/gl_context.h>
+#include <projection/gl/gl_functions.h>
 
 namespace tetralux::projection {
 namespace {

@@ -9,8 +9,8 @@
 
 #include <mesh/procedural_field.h>
 #include <mesh/read_mesh.h>
-#include <projection/gl_engine.h>
-#include <projection/reference_ray_caster.h>
+#include <projection/gl/gl_engine.h>
+#include <projection/reference/reference_ray_caster.h>
 #include <tests/support/analytic_scenes.h>
 #include <tests/support/engine_pictures.h>
 

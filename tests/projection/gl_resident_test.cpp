@@ -10,14 +10,14 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include <projection/gl_context.h>
-#include <projection/gl_frame_target.h>
-#include <projection/gl_path.h>
-#include <projection/gl_resident_cells.h>
-#include <projection/key_sort.h>
-#include <projection/light_frame.h>
-#include <projection/visibility_order.h>
-#include <projection/visibility_relations.h>
+#include <projection/gl/gl_context.h>
+#include <projection/gl/gl_frame_target.h>
+#include <projection/gl/gl_path.h>
+#include <projection/gl/gl_resident_cells.h>
+#include <projection/light/light_frame.h>
+#include <projection/order/key_sort.h>
+#include <projection/order/visibility_order.h>
+#include <projection/order/visibility_relations.h>
 #include <tests/support/gl_path_pictures.h>
 
 namespace tetralux::projection {

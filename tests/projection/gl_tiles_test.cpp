@@ -2,7 +2,7 @@
 //
 // Compute tiles (gl_tiles.h) against the rasterizer, which draws the same cells by the same text of pixels, and against
 // the reference. Here both run on llvmpipe.
-#include <projection/gl_tiles.h>
+#include <projection/gl/gl_tiles.h>
 
 #include <functional>
 #include <numeric>
@@ -10,12 +10,12 @@
 
 #include <glm/geometric.hpp>
 
-#include <projection/gl_draw_trial.h>
-#include <projection/gl_frame_target.h>
-#include <projection/gl_path.h>
-#include <projection/gl_resident_cells.h>
-#include <projection/light_frame.h>
-#include <projection/opaque_layer.h>
+#include <projection/gl/gl_draw_trial.h>
+#include <projection/gl/gl_frame_target.h>
+#include <projection/gl/gl_path.h>
+#include <projection/gl/gl_resident_cells.h>
+#include <projection/light/light_frame.h>
+#include <projection/opaque/opaque_layer.h>
 #include <tests/support/engine_pictures.h>
 #include <tests/support/gl_path_pictures.h>
 

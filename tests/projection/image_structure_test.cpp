@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <projection/image_structure.h>
+#include <projection/image/image_structure.h>
 
 #include <cmath>
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <projection/image.h>
-#include <projection/whole_file.h>
+#include <projection/image/image.h>
+#include <projection/image/whole_file.h>
 #include <sys/resource.h>
 #include <unistd.h>
 

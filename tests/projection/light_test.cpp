@@ -11,9 +11,9 @@
 #include <glm/geometric.hpp>
 
 #include <projection/engine.h>
-#include <projection/image_structure.h>
-#include <projection/light_frame.h>
-#include <projection/reference_ray_caster.h>
+#include <projection/image/image_structure.h>
+#include <projection/light/light_frame.h>
+#include <projection/reference/reference_ray_caster.h>
 #include <tests/support/analytic_scenes.h>
 
 namespace tetralux::projection {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <projection/lighting_file.h>
+#include <projection/light/lighting_file.h>
 
 namespace tetralux::projection {
 namespace {

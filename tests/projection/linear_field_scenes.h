@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <mesh/validation.h>
-#include <projection/reference_ray_caster.h>
+#include <projection/reference/reference_ray_caster.h>
 #include <tests/mesh/cube_cells.h>
 #include <tests/support/analytic_scenes.h>
 

@@ -2,7 +2,7 @@
 //
 // Slices and surfaces in a cube whose scalar is linear throughout: along a ray the volume is one exact segment from
 // where the ray enters the cube to where it meets what is opaque.
-#include <projection/opaque_layer.h>
+#include <projection/opaque/opaque_layer.h>
 
 #include <cmath>
 #include <functional>

@@ -2,7 +2,7 @@
 //
 // Slices that let part of the volume behind them through, colours that tell the distance, shadows of opaque surfaces:
 // closed forms in every engine, and every engine against the reference.
-#include <projection/veiled_volume.h>
+#include <projection/opaque/veiled_volume.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@
 #include <mesh/read_mesh.h>
 #include <preint/exact_integral.h>
 #include <projection/clip_region.h>
-#include <projection/light_frame.h>
-#include <projection/opaque_layer.h>
+#include <projection/light/light_frame.h>
+#include <projection/opaque/opaque_layer.h>
 #include <tests/support/analytic_scenes.h>
 #include <tests/support/engine_pictures.h>
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <projection/reference_ray_caster.h>
+#include <projection/reference/reference_ray_caster.h>
 #include <projection/verification.h>
 #include <tests/support/analytic_scenes.h>
 

@@ -10,15 +10,15 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include <projection/boundary_reentry.h>
-#include <projection/cell_setup.h>
-#include <projection/edge_on_planes.h>
-#include <projection/exact_repair.h>
-#include <projection/key_sort.h>
-#include <projection/order_upkeep.h>
-#include <projection/power_order.h>
-#include <projection/reference_ray_caster.h>
-#include <projection/visibility_order.h>
+#include <projection/cells/cell_setup.h>
+#include <projection/cells/edge_on_planes.h>
+#include <projection/order/boundary_reentry.h>
+#include <projection/order/exact_repair.h>
+#include <projection/order/key_sort.h>
+#include <projection/order/order_upkeep.h>
+#include <projection/order/power_order.h>
+#include <projection/order/visibility_order.h>
+#include <projection/reference/reference_ray_caster.h>
 #include <tests/support/analytic_scenes.h>
 
 namespace tetralux::projection {

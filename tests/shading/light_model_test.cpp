@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <projection/cell_shading.h>
+#include <projection/cells/cell_shading.h>
 
 namespace tetralux::glsl {
 namespace {

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <projection/engine.h>
-#include <projection/reference_ray_caster.h>
+#include <projection/reference/reference_ray_caster.h>
 #include <tests/support/analytic_scenes.h>
 
 namespace tetralux::test {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <projection/engine.h>
-#include <projection/reference_ray_caster.h>
+#include <projection/reference/reference_ray_caster.h>
 
 namespace tetralux::test {
 

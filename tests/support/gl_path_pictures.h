@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Pictures of the OpenGL engine by its paths (projection/gl_path.h), held against the streaming one's.
+/// Pictures of the OpenGL engine by its paths (projection/gl/gl_path.h), held against the streaming one's.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include <projection/gl_engine.h>
+#include <projection/gl/gl_engine.h>
 #include <tests/support/analytic_scenes.h>
 
 namespace tetralux::test {

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// Light in full (shading/light_model.glsl) in SIMD lanes: what cpu_shading.h's short way does not know. Included once
+/// per instruction set. Directions are along the world's axes here, places relative to the eye.
+#include <projection/cpu/cpu_shading_vectors.h>
+
+#include <projection/cpu/cpu_special_cell.h>
+#include <projection/cpu/cpu_tile.h>
+
+#if defined(TETRALUX_CPU_LIGHT_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TETRALUX_CPU_LIGHT_H
+#undef TETRALUX_CPU_LIGHT_H
+#else
+#define TETRALUX_CPU_LIGHT_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace tetralux::projection::HWY_NAMESPACE {
+
+#include <shading/light_model.glsl>
+
+/// Where a block's segments run, as light needs it.
+struct SegmentMiddles {
+    real dx, dy;    ///< of the pixels from the cell's reference point
+    real weight;    ///< of the constant part: mean depth ratio (orthographic: 1)
+    real nearness;  ///< mean of depth ratio times rho (orthographic: mean rho)
+};
+
+/// Of segments between two values of rho.
+template <bool Orthographic>
+HWY_INLINE SegmentMiddles segmentMiddles(real dx, real dy, real in, real out) {
+    const real half(0.5f);
+    if constexpr (Orthographic) return {dx, dy, real(1.0f), half * (in + out)};
+    const real ratioIn = reciprocal(real(1.0f) + in), ratioOut = reciprocal(real(1.0f) + out);
+    return {dx, dy, half * (ratioIn + ratioOut), half * (ratioIn * in + ratioOut * out)};
+}
+
+/// Where a segment begins at a clip surface (pixel_maps.h), that surface's normal is lit.
+struct CutSurface {
+    mask here;
+    vec3 normal;
+};
+
+/// A segment that is lit, as the short way hands it on.
+struct SegmentToLight {
+    vec3 color;             ///< C_seg/α_seg
+    real opacity;           ///< after the silhouette
+    real side;              ///< sign of s_f − s_b
+    vec3 towards;           ///< of the ray, unit, (right, down, forward)
+    const CutSurface* cut;  ///< nullptr: none of the block's segments begins at one
+};
+
+HWY_INLINE vec3 broadcast(const glm::vec3& v) {
+    return {real(v.x), real(v.y), real(v.z)};
+}
+
+/// From (right, down, forward) to the world's axes.
+HWY_INLINE vec3 worldFromCamera(const TileFrame& frame, vec3 v) {
+    return v.x * broadcast(frame.axes[0]) + v.y * broadcast(frame.axes[1]) + v.z * broadcast(frame.axes[2]);
+}
+
+/// Barycentric coordinates of the segments' middles: λ_k is proportional to the distance from face k, and so to
+/// rho − rho_k times its value at the eye (cell_interval.glsl).
+HWY_INLINE void middleCoordinates(const CellBatch& batch, std::size_t j, const SegmentMiddles& middles,
+                                  real (&weights)[4]) {
+    real sum(0.0f);
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto& plane = batch.plane[k];
+        const real rho =
+            planeRho(cell_real{plane[0][j]}, cell_real{plane[1][j]}, cell_real{plane[2][j]}, middles.dx, middles.dy);
+        weights[k] =
+            clamp(real(batch.eyeWeight[k][j]) * (middles.nearness - middles.weight * rho), real(0.0f), real(1.0f));
+        sum += weights[k];
+    }
+    const real inverse = real(1.0f) / max(sum, real(1e-30f));
+    for (real& weight : weights) weight = weight * inverse;
+}
+
+/// One attribute at the middles; `values` of the four corners.
+HWY_INLINE real attributeAt(const float* const (&values)[4], int place, const real (&weights)[4]) {
+    return weights[0] * real(values[0][place]) + weights[1] * real(values[1][place]) +
+           (weights[2] * real(values[2][place]) + weights[3] * real(values[3][place]));
+}
+HWY_INLINE vec3 vectorAt(const float* const (&values)[4], int place, const real (&weights)[4]) {
+    return {attributeAt(values, place, weights), attributeAt(values, place + 1, weights),
+            attributeAt(values, place + 2, weights)};
+}
+
+HWY_INLINE LightModel broadcastModel(const LightModelFloats& floats) {
+    LightModel model;
+    model.kind = floats.kind;
+    model.frontSpecular = broadcast(floats.frontSpecular);
+    model.backSpecular = broadcast(floats.backSpecular);
+    model.frontExponent = real(floats.frontExponent);
+    model.backExponent = real(floats.backExponent);
+    model.diffuse = real(floats.diffuse);
+    model.specular = real(floats.specular);
+    model.diffuseThrough = real(floats.diffuseThrough);
+    model.specularThrough = real(floats.specularThrough);
+    model.kappa = real(floats.kappa);
+    model.gamma = real(floats.gamma);
+    model.asymmetry = real(floats.asymmetry);
+    return model;
+}
+
+/// Direction to a light and what of its colour arrives at `place`, shadows apart.
+HWY_INLINE vec3 arriving(const FrameLight& light, vec3 place, vec3 view, vec3& towards) {
+    const vec3 color = broadcast(light.color);
+    if (light.kind == 0) {
+        towards = broadcast(light.place);
+        return color;
+    }
+    const vec3 way = broadcast(light.place) - place;
+    const real reach = sqrt(dot(way, way));
+    if (light.kind == 1) {
+        const real inverse = real(1.0f) / max(reach, real(1e-18f));
+        towards = select(reach > real(0.0f), inverse * way, view);
+    } else {
+        towards = view;
+    }
+    return attenuation(broadcast(light.fade), reach) * color;
+}
+
+/// Colour per α in the light. `place`: the segments' middles, (right, down, forward) from the eye, scene lengths.
+inline HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& batch, std::size_t j,
+                                     const SegmentMiddles& middles, vec3 place, const SegmentToLight& segment) {
+    LightModel model = broadcastModel(frame.lightModel);
+    const shading::VertexLight& kept = *frame.vertexLight;
+    const vec3 ambient = broadcast(frame.lightModel.ambient);
+    const vec3 dark(ambient.x * segment.color.x, ambient.y * segment.color.y, ambient.z * segment.color.z);
+    if (!(batch.gradient[j] > 0) && kept.normalAt < 0 && model.kind != 4 && segment.cut == nullptr) return dark;
+
+    const float* values[4] = {};
+    real weights[4];
+    if (kept.any()) {
+        middleCoordinates(batch, j, middles, weights);
+        for (std::size_t k = 0; k < 4; ++k) values[k] = kept.of(static_cast<std::uint32_t>(batch.corner[k][j]));
+    }
+    if (kept.specularAt >= 0) {
+        const real factor = attributeAt(values, kept.specularAt, weights);
+        model.specular = model.specular * factor;
+        model.specularThrough = model.specularThrough * factor;
+    }
+    LitPoint point;
+    point.view = worldFromCamera(frame, -segment.towards);
+    point.side = segment.side;
+    point.opacity = segment.opacity;
+    mask lit = real(0.0f) < real(1.0f);
+    if (kept.normalAt >= 0) {
+        const vec3 gradient = vectorAt(values, kept.normalAt, weights);
+        const real square = dot(gradient, gradient);
+        lit = square > real(1e-30f);
+        point.normal = real(1.0f) / sqrt(max(square, real(1e-30f))) * gradient;
+    } else {
+        point.normal =
+            worldFromCamera(frame, vec3(real(batch.normal[0][j]), real(batch.normal[1][j]), real(batch.normal[2][j])));
+    }
+    if (segment.cut != nullptr) {
+        point.normal = select(segment.cut->here, worldFromCamera(frame, segment.cut->normal), point.normal);
+        lit = either(segment.cut->here, both(lit, real(batch.gradient[j]) + real(kept.normalAt + 1) > real(0.0f)));
+    }
+    if (kept.tensorAt >= 0)
+        setAnisotropy(model, vectorAt(values, kept.tensorAt, weights), vectorAt(values, kept.tensorAt + 3, weights),
+                      point);
+    vec3 light = dark;
+    const vec3 middle = worldFromCamera(frame, place);
+    for (std::size_t i = 0; i < frame.fullLights.size(); ++i) {
+        vec3 towards;
+        vec3 color = arriving(frame.fullLights[i], middle, point.view, towards);
+        if (kept.shadowAt >= 0) color = attributeAt(values, kept.shadowAt + static_cast<int>(i), weights) * color;
+        const vec3 term = modelTerm(model, point, segment.color, towards);
+        light = light + vec3(color.x * term.x, color.y * term.y, color.z * term.z);
+    }
+    return model.kind == 4 ? light : select(lit, light, dark);
+}
+
+}  // namespace tetralux::projection::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

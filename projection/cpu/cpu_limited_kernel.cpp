@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// The kernels of pictures with limits, other classifications and modes that hide nothing (cpu_limited_segment.h).
+#include <projection/cpu/cpu_targets.h>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "projection/cpu/cpu_limited_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <projection/cpu/cpu_tile_drawing.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace tetralux::projection::HWY_NAMESPACE {
+
+template <TileKind Kind>
+void drawLimitedAs(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+                   TileResult& result) {
+    if (frame.orthographic)
+        drawTileAs<Kind, true, false, true, true>(frame, x0, y0, entries, image, result);
+    else
+        drawTileAs<Kind, false, false, true, true>(frame, x0, y0, entries, image, result);
+}
+
+void drawLimitedTileHere(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+                         TileResult& result) {
+    switch (frame.kind) {
+        case TileKind::Mip:
+            return drawLimitedAs<TileKind::Mip>(frame, x0, y0, entries, image, result);
+        case TileKind::Minimum:
+            return drawLimitedAs<TileKind::Minimum>(frame, x0, y0, entries, image, result);
+        case TileKind::Average:
+            return drawLimitedAs<TileKind::Average>(frame, x0, y0, entries, image, result);
+        case TileKind::Absorption:
+            return drawLimitedAs<TileKind::Absorption>(frame, x0, y0, entries, image, result);
+        case TileKind::Composite:
+        case TileKind::Shaded:
+            return drawLimitedAs<TileKind::Shaded>(frame, x0, y0, entries, image, result);
+        case TileKind::FirstHit:
+            return drawLimitedAs<TileKind::FirstHit>(frame, x0, y0, entries, image, result);
+        case TileKind::Additive:
+            return drawLimitedAs<TileKind::Additive>(frame, x0, y0, entries, image, result);
+        case TileKind::Depth:
+            return drawLimitedAs<TileKind::Depth>(frame, x0, y0, entries, image, result);
+        case TileKind::Contribution:
+            return drawLimitedAs<TileKind::Contribution>(frame, x0, y0, entries, image, result);
+    }
+}
+
+}  // namespace tetralux::projection::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tetralux::projection {
+
+HWY_EXPORT(drawLimitedTileHere);
+
+void drawLimitedTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+                     TileResult& result) {
+    HWY_DYNAMIC_DISPATCH(drawLimitedTileHere)(frame, x0, y0, entries, image, result);
+}
+
+}  // namespace tetralux::projection
+#endif

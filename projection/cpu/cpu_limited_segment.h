@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// What only the kernel with limits holds (drawLimitedTile): pixel maps, other classifications, modes that hide
+/// nothing. Included once per instruction set.
+#include <projection/cpu/cpu_shading.h>
+
+#include <projection/cpu/cpu_special_cell.h>
+#include <projection/cpu/cpu_tile.h>
+
+#if defined(TETRALUX_CPU_LIMITED_SEGMENT_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TETRALUX_CPU_LIMITED_SEGMENT_H
+#undef TETRALUX_CPU_LIMITED_SEGMENT_H
+#else
+#define TETRALUX_CPU_LIMITED_SEGMENT_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace tetralux::projection::HWY_NAMESPACE {
+
+constexpr float noLimit = 3e38f;
+
+/// A tile's part of TileLimits, in the order of its accumulators.
+template <std::size_t pixels>
+struct LimitBuffers {
+    alignas(64) float nearest[pixels], farthest[pixels], scale[pixels], normal[3][pixels];
+
+    void clear() {
+        std::fill_n(nearest, pixels, noLimit);
+        std::fill_n(farthest, pixels, -noLimit);
+        std::fill_n(scale, pixels, 1.0f);
+        for (auto& axis : normal) std::fill_n(axis, pixels, 0.0f);
+    }
+    void set(const TileLimits& limits, std::size_t pixel, std::size_t at) {
+        if (!limits.nearest.empty()) nearest[at] = limits.nearest[pixel];
+        if (!limits.farthest.empty()) farthest[at] = limits.farthest[pixel];
+        if (!limits.scale.empty()) scale[at] = limits.scale[pixel];
+        if (!limits.normal.empty())
+            for (std::size_t axis = 0; axis < 3; ++axis) normal[axis][at] = limits.normal[pixel][axis];
+    }
+};
+
+/// Opacity of an isosurface whose depth is multiplied.
+HWY_INLINE real scaledPeakOpacity(const TransferPeak& peak, real scale) {
+    const real depth = real(peak.depth) * scale;
+    const real opacity = real(1.0f) - exp(-depth);
+    return select(depth < pieceDepthLimit(), pieceOpacity(min(depth, pieceDepthLimit())), opacity);
+}
+
+/// SegmentSink where extinction is scaled: paths are already, isosurfaces are here.
+struct ScaledSegmentSink : SegmentSink {
+    real scale;
+
+    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) {
+        const real alpha = keep(crossed, scaledPeakOpacity(peak, scale)), ta = t * alpha;
+        opacity += ta;
+        r += real(peak.color[0]) * ta;
+        g += real(peak.color[1]) * ta;
+        b += real(peak.color[2]) * ta;
+        t = t - ta;
+        otherDepth = otherDepth + keep(crossed, real(peak.depth) * scale);
+    }
+    /// One sample stands for the segment (post- and pre-classification).
+    HWY_INLINE void addSample(real sampleR, real sampleG, real sampleB, real depth) {
+        r = sampleR;
+        g = sampleG;
+        b = sampleB;
+        opacity = select(depth > real(0.0f), real(1.0f), real(0.0f));
+        smoothDepth = depth;
+    }
+};
+
+struct ScaledDepthSink : DepthSink {
+    real scale;
+    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) {
+        depth = depth + keep(crossed, real(peak.depth) * scale);
+    }
+};
+
+/// ∫ c τ along one segment, nothing hidden, with smooth depth and the sum of isosurfaces' opacities.
+struct EmissionSink {
+    static constexpr bool depthOnly = false, hides = false;
+    real r, g, b, smoothDepth, otherDepth, scale;
+
+    HWY_INLINE void add(const TransferPiece& piece, real depth, real weighted) {
+        r += real(piece.color[0]) * depth + real(piece.colorSlope[0]) * weighted;
+        g += real(piece.color[1]) * depth + real(piece.colorSlope[1]) * weighted;
+        b += real(piece.color[2]) * depth + real(piece.colorSlope[2]) * weighted;
+    }
+    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) {
+        const real opacity = keep(crossed, scaledPeakOpacity(peak, scale));
+        r += real(peak.color[0]) * opacity;
+        g += real(peak.color[1]) * opacity;
+        b += real(peak.color[2]) * opacity;
+        otherDepth = otherDepth + opacity;
+    }
+    HWY_INLINE void addDepth(real depth) { smoothDepth = smoothDepth + depth; }
+};
+
+/// Smooth depth of one segment and whether it crosses an isosurface.
+struct ContributionSink {
+    static constexpr bool depthOnly = true;
+    real depth, peaks;
+    HWY_INLINE void addPeak(const TransferPeak&, mask crossed) { peaks = select(crossed, real(1.0f), peaks); }
+    HWY_INLINE void addDepth(real more) { depth = depth + more; }
+};
+
+/// Extinction and colour at one scalar per pixel, from above at jumps.
+struct Sample {
+    real extinction, r, g, b;
+};
+HWY_INLINE Sample sampleAt(const CpuTransfer& transfer, std::size_t first, std::size_t last, real s) {
+    Sample sample;
+    sample.extinction = sample.r = sample.g = sample.b = real(0.0f);
+    for (std::size_t k = first; k <= last; ++k) {
+        const TransferPiece& piece = transfer.pieces()[k];
+        mask within = s < real(piece.high);
+        if (k > first) within = both(within, either(s > real(piece.low), s == real(piece.low)));
+        if (k == last) within = k > first ? either(s > real(piece.low), s == real(piece.low)) : s == s;
+        const real offset = s - real(piece.middle);
+        sample.extinction += keep(within, real(piece.extinction) + real(piece.extinctionSlope) * offset);
+        sample.r += keep(within, real(piece.color[0]) + real(piece.colorSlope[0]) * offset);
+        sample.g += keep(within, real(piece.color[1]) + real(piece.colorSlope[1]) * offset);
+        sample.b += keep(within, real(piece.color[2]) + real(piece.colorSlope[2]) * offset);
+    }
+    sample.extinction = max(sample.extinction, real(0.0f));
+    return sample;
+}
+
+/// Post-classification's sample, or what the vertices carry for pre-classification, in the middles of the segments.
+HWY_INLINE Sample segmentSample(const TileFrame& frame, const CellBatch& batch, std::size_t j,
+                                const SegmentMiddles& middles, std::size_t first, std::size_t last,
+                                const Segments& segments) {
+    const shading::VertexLight& kept = *frame.vertexLight;
+    if (kept.sampleAt < 0) return sampleAt(*frame.transfer, first, last, real(0.5f) * (segments.front + segments.back));
+    real weights[4];
+    middleCoordinates(batch, j, middles, weights);
+    const float* values[4];
+    for (std::size_t k = 0; k < 4; ++k) values[k] = kept.of(static_cast<std::uint32_t>(batch.corner[k][j]));
+    const vec3 color = vectorAt(values, kept.sampleAt, weights);
+    return {attributeAt(values, kept.sampleAt + 3, weights), color.x, color.y, color.z};
+}
+
+/// Where along the segments (scalars) something first shows; `shown` tells where anything does.
+struct FirstShown {
+    real scalar;
+    mask shown;
+
+    HWY_INLINE void meet(mask here, real at) {
+        scalar = select(hn::AndNot(shown, here), at, scalar);
+        shown = either(shown, here);
+    }
+};
+
+HWY_INLINE void meetPiece(const TransferPiece& piece, const Segments& segments, mask lanes, FirstShown& first) {
+    if (!piece.visible) return;
+    const real low(piece.low), high(piece.high);
+    const real begin = clamp(segments.front, low, high), end = clamp(segments.back, low, high);
+    first.meet(both(lanes, abs(end - begin) > real(0.0f)), begin);
+}
+
+HWY_INLINE FirstShown firstShown(const CpuTransfer& transfer, std::size_t first, std::size_t last,
+                                 const Segments& segments) {
+    const auto& pieces = transfer.pieces();
+    const auto& peaks = transfer.peaks();
+    const mask rising = both(segments.back > segments.front, segments.live),
+               falling = both(segments.back < segments.front, segments.live);
+    auto meetPeak = [&](const TransferPeak& peak, mask lanes, FirstShown& shown) HWY_ATTR {
+        const real value(peak.value);
+        shown.meet(both(lanes, exactlyOne(segments.front < value, segments.back < value)), value);
+    };
+    FirstShown result{segments.front, segments.front < segments.front};
+    for (std::size_t k = first; k <= last && !none(rising); ++k) {
+        meetPiece(pieces[k], segments, rising, result);
+        if (k == last) break;
+        for (std::uint32_t i = pieces[k].peakBegin; i < pieces[k].peakEnd; ++i) meetPeak(peaks[i], rising, result);
+    }
+    for (std::size_t k = last + 1; k-- > first && !none(falling);) {
+        meetPiece(pieces[k], segments, falling, result);
+        if (k == first) break;
+        for (std::uint32_t i = pieces[k - 1].peakEnd; i-- > pieces[k - 1].peakBegin;)
+            meetPeak(peaks[i], falling, result);
+    }
+    // constant along the ray: shown where extinction is more than rounding of the line that gives it
+    const mask constant = both(segments.back == segments.front, segments.live);
+    if (!none(constant)) {
+        float slopes = 0.0f;
+        for (std::size_t k = first; k <= last; ++k)
+            slopes = std::max({slopes, pieces[k].extinction, std::abs(pieces[k].extinctionSlope)});
+        const Sample sample = sampleAt(transfer, first, last, segments.front);
+        result.meet(both(constant, sample.extinction > real(1e-6f * slopes)), segments.front);
+    }
+    return result;
+}
+
+}  // namespace tetralux::projection::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/cpu/cpu_limits.h>
+
+#include <glm/geometric.hpp>
+
+#include <projection/order/ray_nearness.h>
+
+namespace tetralux::projection {
+
+TileLimits tileLimits(const PixelMaps& maps, const CameraFrame& camera, const TileFrame& frame,
+                      const SceneUnits& units) {
+    NearnessMaps nearness = nearnessMaps(maps, camera, units, frame.depthReference);
+    TileLimits limits{std::move(nearness.nearest), std::move(nearness.farthest), maps.extinctionScale, {}};
+    limits.normal.reserve(maps.nearestNormal.size());
+    for (const glm::vec3& world : maps.nearestNormal) {
+        const glm::dvec3 normal(world);
+        limits.normal.push_back({static_cast<float>(glm::dot(normal, camera.right)),
+                                 static_cast<float>(-glm::dot(normal, camera.up)),
+                                 static_cast<float>(glm::dot(normal, camera.forward))});
+    }
+    return limits;
+}
+
+}  // namespace tetralux::projection

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <projection/cpu/cpu_tile.h>
+#include <projection/pixel_maps.h>
+
+namespace tetralux::projection {
+
+/// Pixel maps in the terms of a frame's tiles: distances as nearness (TileFrame::depthReference), normals in the
+/// camera's axes. `camera` is the frame's.
+TileLimits tileLimits(const PixelMaps& maps, const CameraFrame& camera, const TileFrame& frame,
+                      const SceneUnits& units);
+
+}  // namespace tetralux::projection

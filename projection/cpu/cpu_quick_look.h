@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <projection/cpu/cpu_tile.h>
+#include <shading/lights.h>
+
+namespace tetralux::projection {
+
+/// The kernel that draws such silhouettes and lights, and what it needs. `frame`: with its axes and lights.
+QuickLook quickLook(const shading::ShadingSettings& shading, const TileFrame& frame);
+
+}  // namespace tetralux::projection

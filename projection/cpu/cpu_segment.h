@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// From a segment of every pixel of a block to colour: along the pieces of the transfer function, front to back.
+/// Included once per instruction set.
+///
+/// A thin segment within one piece needs neither table nor exponential (cpu_piece.glsl). One that crosses nodes is cut
+/// there, exactly, and walks through its pieces; a cell's pixels do so together, those along which the scalar rises
+/// upwards and the others downwards.
+#include <projection/cpu/cpu_simd.h>
+
+#include <hwy/contrib/math/math-inl.h>
+
+#include <projection/cpu/cpu_tile.h>
+#include <projection/cpu/cpu_transfer.h>
+
+#if defined(TETRALUX_CPU_SEGMENT_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TETRALUX_CPU_SEGMENT_H
+#undef TETRALUX_CPU_SEGMENT_H
+#else
+#define TETRALUX_CPU_SEGMENT_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace tetralux::projection::HWY_NAMESPACE {
+
+#undef TETRALUX_GLSL_FUNCTION
+#define TETRALUX_GLSL_FUNCTION HWY_INLINE
+#include <projection/cells/cell_interval.glsl>
+HWY_INLINE real exp(real a) {
+    return hn::Exp(FloatTag(), a.v);
+}
+#include <projection/cpu/cpu_piece.glsl>
+
+/// Premultiplied colour and transmittance, gathered front to back.
+struct ColorSink {
+    static constexpr bool depthOnly = false, hides = true;
+    real r, g, b, t;
+
+    /// Adds t·(c₀·α + c₁·q) where the colour is c₀ + c₁·(s − middle) and q the α-weighted s − middle.
+    HWY_INLINE void add(const TransferPiece& piece, real opacity, real weighted) {
+        const real ta = t * opacity, tq = t * weighted;
+        r += real(piece.color[0]) * ta + real(piece.colorSlope[0]) * tq;
+        g += real(piece.color[1]) * ta + real(piece.colorSlope[1]) * tq;
+        b += real(piece.color[2]) * ta + real(piece.colorSlope[2]) * tq;
+        t = t - ta;
+    }
+    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) {
+        const real ta = keep(crossed, t * real(peak.opacity));
+        r += real(peak.color[0]) * ta;
+        g += real(peak.color[1]) * ta;
+        b += real(peak.color[2]) * ta;
+        t = t - ta;
+    }
+    HWY_INLINE void addDepth(real) {}
+};
+
+/// The same for one segment that silhouettes and light will change: its opacity (1 − t would lose thin ones) and
+/// optical depths are wanted too.
+struct SegmentSink : ColorSink {
+    real opacity, smoothDepth, otherDepth;
+
+    HWY_INLINE void begin() {
+        r = g = b = opacity = smoothDepth = otherDepth = real(0.0f);
+        t = real(1.0f);
+    }
+    HWY_INLINE void add(const TransferPiece& piece, real pieceOpacity, real weighted) {
+        opacity += t * pieceOpacity;
+        ColorSink::add(piece, pieceOpacity, weighted);
+    }
+    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) {
+        opacity += keep(crossed, t * real(peak.opacity));
+        ColorSink::addPeak(peak, crossed);
+        otherDepth = otherDepth + keep(crossed, real(peak.depth));
+    }
+    HWY_INLINE void addDepth(real depth) { smoothDepth = smoothDepth + depth; }
+};
+
+/// Optical depth alone.
+struct DepthSink {
+    static constexpr bool depthOnly = true;
+    real depth;
+
+    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) { depth = depth + keep(crossed, real(peak.depth)); }
+    HWY_INLINE void addDepth(real more) { depth = depth + more; }
+};
+
+/// Segments some of which are too deep for the polynomials.
+template <class Sink>
+HWY_NOINLINE void addDeepPiece(const TransferPiece& piece, real middle, real half, real depth, real halfStep,
+                               Sink& sink) {
+    const real most(1e30f), zero(0.0f), one(1.0f);
+    const real thin = min(depth, pieceDepthLimit()), slope = clamp(halfStep, -pieceSlopeLimit(), pieceSlopeLimit());
+    const mask deep = either(depth > pieceDepthLimit(), abs(halfStep) > pieceSlopeLimit());
+    depth = min(depth, most);
+    halfStep = clamp(halfStep, -most, most);
+    const real fade = exp(-min(depth, real(80.0f))), perRoot = one / deepPieceRoot(halfStep);
+    const real front = real(0.5f) * max(depth - halfStep, zero) * perRoot,
+               back = real(0.5f) * max(depth + halfStep, zero) * perRoot;
+    const mask rising = halfStep > zero;
+    real gFront = zero, gBack = zero;
+    if (!none(rising)) {
+        gFront = scaledComplement(front);
+        gBack = scaledComplement(back);
+    }
+    if (!none(both(deep, halfStep < real(1e-30f)))) {
+        gFront = select(rising, gFront, dawsonIntegral(front));
+        gBack = select(rising, gBack, dawsonIntegral(back));
+    }
+    const real opacity = select(deep, one - fade, pieceOpacity(thin));
+    const real skew = select(deep, deepPieceSkew(gFront, gBack, perRoot, fade), pieceSkew(thin, slope));
+    sink.add(piece, opacity, middle * opacity + half * skew);
+}
+
+/// Adds a segment within one piece: `middle` and `half` are its mean scalar less the piece's own middle and half its
+/// scalar step, `path` its length or its variation of the scalar (0 where there is nothing to add).
+template <bool Fine = false, class Sink>
+HWY_INLINE void addPiece(const TransferPiece& piece, real middle, real half, real path, Sink& sink) {
+    const real slope(piece.extinctionSlope);
+    const real depth = max(path * (real(piece.extinction) + slope * middle), real(0.0f));
+    sink.addDepth(depth);
+    if constexpr (!Sink::depthOnly) {
+        const real halfStep = path * slope * half;
+        if constexpr (!Sink::hides) {
+            sink.add(piece, depth, middle * depth + halfStep * half * real(1.0f / 3.0f));
+        } else if (Fine && HWY_LIKELY(none(depth > finePieceLimit()))) {
+            const real opacity = finePieceOpacity(depth);
+            sink.add(piece, opacity, middle * opacity + half * finePieceSkew(depth, halfStep));
+        } else {
+            const mask deep = either(depth > pieceDepthLimit(), abs(halfStep) > pieceSlopeLimit());
+            if (HWY_LIKELY(none(deep))) {
+                const real opacity = pieceOpacity(depth);
+                sink.add(piece, opacity, middle * opacity + half * pieceSkew(depth, halfStep));
+            } else {
+                addDeepPiece(piece, middle, half, depth, halfStep, sink);
+            }
+        }
+    }
+}
+
+/// A segment of every pixel of a block. Where a pixel has none, `length` is 0 and both scalars are equal.
+struct Segments {
+    real front, back;  ///< scalars
+    real length;       ///< scene lengths
+    mask live;
+};
+
+template <bool ScaleInvariant, class Sink>
+HWY_INLINE void addWithinPiece(const TransferPiece& piece, const Segments& segments, Sink& sink) {
+    const real half = real(0.5f) * (segments.back - segments.front);
+    const real middle = segments.front + half - real(piece.middle);
+    addPiece(piece, middle, half, ScaleInvariant ? abs(half + half) : segments.length, sink);
+}
+
+/// The part within one of several pieces of the segments along which the scalar rises, or falls. `perScalar`: path per
+/// unit of scalar.
+template <bool Rises, bool ScaleInvariant, class Sink>
+HWY_INLINE void addPart(const TransferPiece& piece, const Segments& segments, real perScalar, Sink& sink) {
+    if (!piece.visible) return;
+    const real low(piece.low), high(piece.high), zero(0.0f);
+    const real begin = Rises ? max(segments.front, low) : min(segments.front, high);
+    const real end = Rises ? min(segments.back, high) : max(segments.back, low);
+    const real step = Rises ? max(end - begin, zero) : min(end - begin, zero);
+    const real half = real(0.5f) * step, length = Rises ? step : -step;
+    real path = length;
+    if constexpr (!ScaleInvariant) path = length * perScalar;
+    const real middle = begin + half - real(piece.middle);
+    if (piece.fine)
+        addPiece<true>(piece, middle, half, path, sink);
+    else if (!none(path > zero))
+        addPiece(piece, middle, half, path, sink);
+}
+
+/// The isosurface between two pieces that show nothing else; nullptr: there is more to see, or less.
+HWY_INLINE const TransferPeak* onlyPeak(const CpuTransfer& transfer, std::size_t first, std::size_t last) {
+    const TransferPiece &a = transfer.pieces()[first], &b = transfer.pieces()[last];
+    const bool only = last == first + 1 && !a.visible && !b.visible && a.peakEnd == a.peakBegin + 1;
+    return only ? &transfer.peaks()[a.peakBegin] : nullptr;
+}
+
+HWY_INLINE mask crossed(const TransferPeak& peak, const Segments& segments) {
+    const real value(peak.value);
+    return both(segments.live, exactlyOne(segments.front < value, segments.back < value));
+}
+
+/// More pieces than this and a block's own range of scalars is worth finding.
+constexpr std::size_t fewPieces = 3;
+
+/// Segments that cross nodes or isosurfaces: pieces first … last of the transfer function.
+template <bool ScaleInvariant, class Sink>
+HWY_INLINE void addAcrossPieces(const CpuTransfer& transfer, std::size_t first, std::size_t last,
+                                const Segments& segments, Sink& sink) {
+    const auto& pieces = transfer.pieces();
+    const auto& peaks = transfer.peaks();
+    if (const TransferPeak* peak = onlyPeak(transfer, first, last))
+        return sink.addPeak(*peak, crossed(*peak, segments));
+    // a step too small to be divided by is made larger: the pieces that it lies in stay the same within 1e-6 of the
+    // range
+    Segments cut = segments;
+    const real leastStep(1e-6f);
+    if constexpr (!ScaleInvariant)
+        cut.back = select(abs(segments.back - segments.front) < leastStep, segments.front + leastStep, segments.back);
+    const real step = cut.back - cut.front;
+    const mask rising = both(step > real(0.0f), segments.live), falling = both(step < real(0.0f), segments.live);
+    const real perScalar = ScaleInvariant ? real(1.0f) : segments.length / abs(step);
+    if (last > first + fewPieces) {
+        const real unmet(1e30f);
+        first = std::max(first,
+                         transfer.pieceFromAbove(-largest(select(segments.live, -min(cut.front, cut.back), -unmet))));
+        last =
+            std::min(last, transfer.pieceFromAbove(largest(select(segments.live, max(cut.front, cut.back), -unmet))));
+    }
+    if (!none(rising)) {
+        for (std::size_t k = first; k <= last; ++k) {
+            addPart<true, ScaleInvariant>(pieces[k], cut, perScalar, sink);
+            if (k == last) break;
+            for (std::uint32_t i = pieces[k].peakBegin; i < pieces[k].peakEnd; ++i) {
+                const real value(peaks[i].value);
+                sink.addPeak(peaks[i], both(rising, exactlyOne(segments.front < value, segments.back < value)));
+            }
+        }
+    }
+    if (!none(falling)) {
+        for (std::size_t k = last + 1; k-- > first;) {
+            addPart<false, ScaleInvariant>(pieces[k], cut, perScalar, sink);
+            if (k == first) break;
+            for (std::uint32_t i = pieces[k - 1].peakEnd; i-- > pieces[k - 1].peakBegin;) {
+                const real value(peaks[i].value);
+                sink.addPeak(peaks[i], both(falling, exactlyOne(segments.front < value, segments.back < value)));
+            }
+        }
+    }
+}
+
+}  // namespace tetralux::projection::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// Silhouettes and light for a block of segments: shading/cell_shading.glsl in SIMD lanes. Included once per
+/// instruction set; only kernels for scenes that ask for it hold any of this.
+#include <projection/cpu/cpu_light.h>
+#include <projection/cpu/cpu_shading_vectors.h>
+
+#if defined(TETRALUX_CPU_SHADING_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TETRALUX_CPU_SHADING_H
+#undef TETRALUX_CPU_SHADING_H
+#else
+#define TETRALUX_CPU_SHADING_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace tetralux::projection::HWY_NAMESPACE {
+
+#include <shading/cell_shading.glsl>
+#include <shading/silhouette.glsl>
+
+/// Colour per α and α of one segment.
+struct ShadedSegment {
+    real r, g, b, opacity, depth;
+};
+
+/// Depth-based colouring (shading::DepthColor). `distance` along the rays, scene lengths.
+HWY_INLINE void colorByDepth(const TileFrame& frame, real distance, ShadedSegment& segment) {
+    const shading::DepthColor& depthColor = *frame.shading->depthColor;
+    const real grey = real(frame.greyPerDistance) * distance + real(frame.greyOfZero);
+    const real share = real(depthColor.strength) * clamp(real(1.0f) - grey, real(0.0f), real(1.0f));
+    segment.r += share * (real(depthColor.color.x) - segment.r);
+    segment.g += share * (real(depthColor.color.y) - segment.g);
+    segment.b += share * (real(depthColor.color.z) - segment.b);
+}
+
+/// 1 − exp(−depth) with the relative precision of float.
+HWY_INLINE real opacityOfDepth(real depth) {
+    return select(depth < pieceDepthLimit(), pieceOpacity(min(depth, pieceDepthLimit())), real(1.0f) - exp(-depth));
+}
+
+/// `towards`: the unit direction of each pixel's ray, (right, down, forward). `fall` has the sign of s_f − s_b.
+/// `middles()` and `place()` give where the segments' middles lie (cpu_light.h), which only light in full asks.
+template <bool ScaleInvariant, class Middles, class Place>
+HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& batch, std::size_t j,
+                                      const SegmentSink& sink, const Segments& segments, real fall, vec3 towards,
+                                      const Middles& middles, const Place& place, const CutSurface* cut = nullptr) {
+    const auto& shading = *frame.shading;
+    const real magnitude(batch.gradient[j]);
+    const vec3 normal{real(batch.normal[0][j]), real(batch.normal[1][j]), real(batch.normal[2][j])};
+    real plainDepth = sink.smoothDepth + sink.otherDepth, depth = plainDepth;
+    const real inverse = select(sink.opacity > real(0.0f), real(1.0f) / max(sink.opacity, real(1e-37f)), real(0.0f));
+    vec3 mean = inverse * vec3(sink.r, sink.g, sink.b);
+    if (shading.silhouette && batch.gradient[j] > 0) {
+        const real cosine = dot(normal, towards);
+        if constexpr (ScaleInvariant) {
+            const real variation = abs(segments.back - segments.front);
+            const real extinction =
+                select(variation > real(0.0f), sink.smoothDepth / max(variation, real(1e-37f)), real(0.0f));
+            depth = silhouetteDepth(extinction * magnitude * segments.length, sink.otherDepth, cosine);
+        } else {
+            depth = silhouetteDepth(real(0.0f), depth, cosine);
+        }
+    }
+    if (shading.gradientOpacity > 0) {  // Equation 18
+        const real factor = real(shading.gradientOpacity) * magnitude;
+        depth = depth * factor;
+        plainDepth = plainDepth * factor;
+    }
+    real opacity = opacityOfDepth(depth);
+    if (shading.approximateSilhouette && batch.gradient[j] > 0)
+        opacity = approximateSilhouetteOpacity(opacityOfDepth(plainDepth), plainDepth, depth);
+    if (frame.classification == Classification::PostLinear) opacity = linearOpacity(depth);
+    if (!shading.lit()) return {mean.x, mean.y, mean.z, opacity, depth};
+
+    real side = select(fall > real(0.0f), real(1.0f), select(fall < real(0.0f), real(-1.0f), real(0.0f)));
+    const bool anyCut = cut != nullptr && !none(cut->here);
+    vec3 facing = normal;
+    if (anyCut) {
+        facing = select(cut->here, cut->normal, normal);
+        side = select(cut->here, real(1.0f), side);
+    }
+    if (HWY_UNLIKELY(frame.lightInFull)) {
+        const vec3 lit =
+            lightInFull(frame, batch, j, middles(), place(), {mean, opacity, side, towards, anyCut ? cut : nullptr});
+        return {lit.x, lit.y, lit.z, opacity, depth};
+    }
+    vec3 light = real(shading.ambient) * mean;
+    if (batch.gradient[j] > 0 || anyCut) {
+        const real transmitted = shading.transmission ? real(1.0f) - opacity : real(0.0f);
+        for (const auto& source : frame.lights)
+            light = light + lightTerm(mean, facing, -towards, vec3(real(source[0]), real(source[1]), real(source[2])),
+                                      side, transmitted, real(shading.exponent));
+    }
+    return {light.x, light.y, light.z, opacity, depth};
+}
+
+}  // namespace tetralux::projection::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/cpu/cpu_special_cell.h>
+
+#include <cmath>
+
+#include <projection/cells/projected_cell.h>
+
+namespace tetralux::projection {
+
+using namespace single_cell;
+
+bool rectangleAtEye(const TileFrame& frame, const std::array<CameraPoint, 4>& corners, PixelRect& rect) {
+    std::array<glm::dvec3, 4> points;
+    for (std::size_t k = 0; k < 4; ++k) points[k] = {corners[k].x, corners[k].y, corners[k].z};
+    return coveredPixels(points, *frame.camera, rect) == SkipReason::None;
+}
+
+void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int32_t (&points)[4],
+                    mesh::CellIndex cellIndex, bool odd, std::size_t j, CellBatch& batch) {
+    std::array<CameraPoint, 4> corners;
+    bool behind = false;
+    for (std::size_t k = 0; k < 4; ++k) {
+        corners[k] = frame.points[static_cast<std::uint32_t>(points[k])];
+        behind = behind || std::isnan(corners[k].pixelX);
+    }
+    if (!behind) return;
+
+    PixelRect rect{0, 0, 0, 0};
+    const bool covers = rectangleAtEye(frame, corners, rect);
+    auto inTile = [](int x, int tile) { return std::clamp(x - tile, 0, cpuTileSize); };
+    batch.begin[j][0] = inTile(rect.x0, tileX);
+    batch.begin[j][1] = inTile(rect.y0, tileY);
+    batch.end[j][0] = covers ? inTile(rect.x1, tileX) : 0;
+    batch.end[j][1] = covers ? inTile(rect.y1, tileY) : 0;
+    if (!covers) return;
+
+    Triple p[4];
+    double s[4], deepest = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        p[k] = Triple(corners[k].x, corners[k].y, corners[k].z);
+        s[k] = frame.cellData ? frame.scalars[cellIndex] : frame.scalars[static_cast<std::uint32_t>(points[k])];
+        deepest = std::max(deepest, p[k].z);
+    }
+    const auto forms = cellForms(p[0], p[1], p[2], p[3], false);
+    CellReference reference;
+    reference.depth = 0.5 * deepest;
+    reference.perDepth = 1.0 / reference.depth;
+    reference.imageX = 0.5 * (rect.x0 + rect.x1) - frame.centre.x;
+    reference.imageY = 0.5 * (rect.y0 + rect.y1) - frame.centre.y;
+    coordinatesAt(forms, reference);
+    const auto cell = projectCell(forms, reference, s, false);
+    std::uint32_t fronts = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        fronts |= (forms.eye[k] < 0) != odd ? 1u << k : 0u;  // as the plane's sign was taken, also where it is 0
+        for (std::size_t i = 0; i < 3; ++i) batch.plane[k][i][j] = static_cast<float>(cell.plane[k][i]);
+    }
+    batch.frontMask[j] = fronts;
+    batch.scalar[j] = static_cast<float>(cell.scalar);
+    batch.scalarPerX[j] = static_cast<float>(cell.scalarPerX);
+    batch.scalarPerY[j] = static_cast<float>(cell.scalarPerY);
+    batch.scalarPerRho[j] = static_cast<float>(cell.scalarPerRho);
+    batch.scale[j] = static_cast<float>(reference.depth);
+    batch.offsetX[j] = static_cast<float>(tileX - frame.centre.x - reference.imageX);
+    batch.offsetY[j] = static_cast<float>(tileY - frame.centre.y - reference.imageY);
+    const auto depths = depthBounds(frame.depthReference, reference.depth, reference.perDepth, deepest, deepest, false);
+    batch.rhoNear[j] = static_cast<float>(largestRho);
+    batch.rhoFar[j] = static_cast<float>(depths.rhoFar - 1e-6);
+    batch.nearness[j] = static_cast<float>(depths.nearness);
+    batch.nearnessPerRho[j] = static_cast<float>(depths.nearnessPerRho);
+    batch.nearnessChecked[j] = static_cast<float>(depths.nearness - frame.orderTolerance - depths.rounding);
+    // in scene lengths, as (right, down, forward)
+    const double gx = cell.gradient.x / frame.pixel, gy = cell.gradient.y / frame.pixel, gz = cell.gradient.z;
+    const double magnitude = std::sqrt(gx * gx + gy * gy + gz * gz), scale = magnitude > 0 ? 1.0 / magnitude : 0.0;
+    batch.normal[0][j] = static_cast<float>(gx * scale);
+    batch.normal[1][j] = static_cast<float>(gy * scale);
+    batch.normal[2][j] = static_cast<float>(gz * scale);
+    batch.gradient[j] = static_cast<float>(magnitude);
+    for (std::size_t k = 0; k < 4; ++k) {
+        batch.eyeWeight[k][j] = static_cast<float>(forms.eye[k] / forms.determinant);
+        batch.corner[k][j] = points[k];
+    }
+}
+
+}  // namespace tetralux::projection

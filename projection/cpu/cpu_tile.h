@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// What the stages of the tile engine hand each other.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <mesh/tet_mesh.h>
+#include <projection/camera.h>
+#include <projection/cells/camera_points.h>
+#include <projection/cells/cell_constants.h>
+#include <projection/cells/cell_setup.h>
+#include <projection/cpu/cpu_transfer.h>
+#include <projection/image/image.h>
+#include <projection/light/light_frame.h>
+#include <projection/scene.h>
+
+namespace tetralux::projection {
+
+/// Pixels along a tile's side.
+inline constexpr int cpuTileSize = 32;
+
+/// A cell in a tile's list. Ascending keys are front to back.
+struct TileEntry {
+    std::uint32_t key;
+    mesh::CellIndex cell;
+};
+
+/// What the picture asks of a tile.
+enum class TileKind {
+    Composite,   ///< colour and transmittance, front to back
+    Absorption,  ///< optical depth only: all that is seen has one colour
+    Mip,
+    Minimum,
+    Average,
+    Shaded,  ///< composite with silhouettes or light
+    FirstHit,
+    // by the kernel that also honours limits and other classifications only (drawLimitedTile)
+    Additive,     ///< light of all segments, none hidden
+    Depth,        ///< where along the ray something is first seen
+    Contribution  ///< cells and path that show
+};
+
+/// Pixel maps (pixel_maps.h) in the terms of tiles, width·height each.
+struct TileLimits {
+    std::vector<float> nearest, farthest;      ///< as nearness along rays: segments lie between
+    std::vector<float> scale;                  ///< of extinction; empty: 1
+    std::vector<std::array<float, 3>> normal;  ///< of the cut at `nearest`, as (right, down, forward); empty: none
+};
+
+/// How segments of TileKind::Shaded are shaded.
+enum class Look {
+    General,      ///< anything (cpu_shading.h)
+    Silhouettes,  ///< silhouettes alone; this and the next by cpu_look.h
+    Lit,          ///< plain lights, with silhouettes or without
+    Lamps         ///< the same with lights at places, at the eye or of colour, and Blinn and Phong's highlights
+};
+
+/// A light as the quick looks need it.
+struct QuickLamp {
+    int kind = 0;         ///< FrameLight's
+    float place[3] = {};  ///< towards it, or where it is, scene lengths from the eye: (right, down, forward)
+    float color[3] = {1, 1, 1}, specular[3] = {1, 1, 1};  ///< of diffuse and of specular light
+    bool fades = false;                                   ///< with the distance: FrameLight's fade
+    float fade[3] = {1, 0, 0};
+};
+
+/// What the quick looks need of a frame.
+struct QuickLook {
+    static constexpr std::size_t mostLights = 8;
+    Look look = Look::General;
+    bool silhouettes = false, transmission = false;
+    std::size_t lights = 0;
+    QuickLamp lamps[mostLights];
+    float ambient[3] = {}, exponent = 0;
+    unsigned wholeExponent = 0;  ///< the exponent, when it is a whole number that squaring makes; else 0
+    float leastCosine = 0;       ///< below it a lobe is less than 1e-8
+    // of Look::Lamps
+    bool halfway = false;  ///< lobes about the half-way vector
+    bool places = false;   ///< some lamp asks where the segments are
+    float diffuse = 1, specular = 1, diffuseThrough = 1, specularThrough = 1;
+};
+
+/// The same for all tiles of one frame.
+struct TileFrame {
+    const CameraFrame* camera;
+    const CameraPoint* points;
+    const mesh::Tetrahedron* cells;
+    const float* scalars;  ///< scene units, per point or per cell
+    bool cellData;
+    const CpuTransfer* transfer;
+    TileKind kind;
+    bool scaleInvariant;
+    bool ordered;  ///< entries come front to back, so a pixel where they do not is doubtful
+    bool orthographic;
+    int width, height;
+    glm::dvec2 centre;      ///< sampleCentre of the camera
+    double pixel;           ///< size of a pixel at depth 1 (orthographic: in scene lengths)
+    double depthReference;  ///< scene lengths: nearness along rays is measured from this depth
+    float orderTolerance;   ///< of nearness
+    const shading::ShadingSettings* shading;
+    std::vector<std::array<float, 3>> lights;  ///< towards each, as (right, down, forward)
+    QuickLook look;
+    // light in full (cpu_light.h): anything that ShadingSettings::plain() does not hold for
+    bool lightInFull;
+    bool attributes;  ///< whether anything reads those of the vertices
+    LightModelFloats lightModel;
+    std::vector<FrameLight> fullLights;
+    std::array<glm::vec3, 3> axes;  ///< right, down, forward in world space
+    const shading::VertexLight* vertexLight;
+    bool earlyTermination;
+    const TileLimits* limits = nullptr;
+    Classification classification = Classification::Preintegrated;
+    glm::vec3 constantColor{0};  ///< Absorption: of all that is seen
+    bool emissionOnly = false;   ///< Additive: alpha stays 0
+    double greyOfZero = 0,
+           greyPerDistance = 0;  ///< grey of TileKind::Depth as a function of the distance, scene lengths
+};
+
+struct TileResult {
+    std::uint64_t fragments = 0;
+    std::uint64_t cellsSetUp = 0;
+    bool retired = false;  ///< opaque before its list ended
+    std::vector<std::uint32_t> doubtfulPixels;
+};
+
+/// Draws the tile whose first pixel is (x0, y0) into `image`.
+void drawTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+              TileResult& result);
+
+/// The same with all kinds, within `frame.limits` and with `frame.classification`; not as fast.
+void drawLimitedTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+                     TileResult& result);
+
+/// Name of the instruction set that drawTile uses.
+const char* tileInstructionSet();
+
+}  // namespace tetralux::projection

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// One pixel of one cell: cut the ray by the cell's planes (projection/cells/cell_interval.glsl), look up what light meets in between, shade it.
+// The text of fragments (gl_cell.frag) and of compute tiles (gl_tile_draw.comp).
+// The variants stand in projection/gl/gl_variants.glsl.
+
+uniform vec2 centre;        // pixel coordinates of the optical axis
+
+#if TETRALUX_LIMITS
+uniform sampler2D limits;  // nearness at which the volume begins and ends, factor of extinction (projection/order/ray_nearness.h)
+uniform sampler2D cutNormals;
+uniform float depthReference;
+
+float rhoOfNearness(CellRecord cell, float nearness) {
+#if TETRALUX_ORTHOGRAPHIC
+    return (cell.scale - depthReference + nearness) / abs(cell.scale);
+#else
+    return ((cell.scale - depthReference) + cell.scale * nearness) / depthReference;
+#endif
+}
+#endif
+
+// rho where the ray enters (x) and leaves (y) the cell, at the sample dx, dy pixels beside the reference point. Nothing is inside
+// where x ≤ y.
+vec2 rhoInterval(CellRecord cell, float dx, float dy) {
+#if TETRALUX_ORTHOGRAPHIC
+    float nearest = sign(cell.scale), farthest = -3e38;  // the eye's plane
+#else
+    float nearest = 1e30, farthest = -0.9999999;  // the eye; infinitely far
+#endif
+    for (int k = 0; k < 4; ++k) {
+        float rho = planeRho(cell.plane[k].x, cell.plane[k].y, cell.plane[k].z, dx, dy);
+        bool front = (cell.frontMask & (1 << k)) != 0;
+        nearest = min(nearest, front ? rho : 3e38);
+        farthest = max(farthest, front ? -3e38 : rho);
+    }
+    return vec2(nearest, farthest);
+}
+
+float scalarAtRho(CellRecord cell, float dx, float dy, float rho) {
+#if TETRALUX_ORTHOGRAPHIC
+    return scalarOrthographic(cell.scalar, cell.scalarPerX, cell.scalarPerY, cell.scalarPerRho, dx, dy, rho,
+                              cell.scalarLow, cell.scalarHigh);
+#else
+    return scalarPerspective(cell.scalar, cell.scalarPerX, cell.scalarPerY, cell.scalarPerRho, dx, dy, rho,
+                             cell.scalarLow, cell.scalarHigh);
+#endif
+}
+
+#if TETRALUX_LENGTH
+float segmentLength(CellRecord cell, vec2 rho, vec2 fromCentre) {
+#if TETRALUX_ORTHOGRAPHIC
+    return segmentLengthOrthographic(cell.scale, rho.x, rho.y);
+#else
+    // |forward + x·right + y·down|, whose three vectors are orthogonal
+    float rayLength = sqrt(1.0 + dot(viewRight, viewRight) * dot(fromCentre, fromCentre));
+    return segmentLengthPerspective(cell.scale, rho.x, rho.y, rayLength);
+#endif
+}
+#endif
+
+#if TETRALUX_MODE == TETRALUX_MODE_DEPTH || TETRALUX_DEPTH_COLOR
+// Distance along the ray, scene lengths.
+float distanceTo(CellRecord cell, float rho, vec2 fromCentre) {
+#if TETRALUX_ORTHOGRAPHIC
+    return cell.scale - abs(cell.scale) * rho;
+#else
+    return sqrt(1.0 + dot(viewRight, viewRight) * dot(fromCentre, fromCentre)) * cell.scale * depthRatio(rho);
+#endif
+}
+#endif
+
+// What the cell adds to the pixel at these whole numbers, premultiplied; false where it adds nothing.
+bool drawPixel(CellRecord cell, ivec2 place, out vec4 result) {
+    result = vec4(0.0);
+    vec2 pixel = vec2(place);
+    float dx = (pixel.x - cell.pixel.x) - cell.fraction.x;
+    float dy = (pixel.y - cell.pixel.y) - cell.fraction.y;
+    vec2 rho = rhoInterval(cell, dx, dy);
+    vec3 cutNormal = vec3(0.0);
+#if TETRALUX_LIMITS
+    vec4 limit = texelFetch(limits, place, 0);
+    float nearest = rhoOfNearness(cell, limit.x);
+#if TETRALUX_LIGHTS
+    if (nearest < rho.x) cutNormal = texelFetch(cutNormals, place, 0).xyz;
+#endif
+    rho = vec2(min(rho.x, nearest), max(rho.y, rhoOfNearness(cell, limit.y)));
+    interfaceScale = limit.z;
+#endif
+    if (!(rho.x > rho.y)) return false;
+    float front = scalarAtRho(cell, dx, dy, rho.x);
+    float back = scalarAtRho(cell, dx, dy, rho.y);
+    float len = 0.0;
+#if TETRALUX_LENGTH
+    len = segmentLength(cell, rho, pixel - centre);
+#endif
+
+#if TETRALUX_MODE == TETRALUX_MODE_MIP
+    result = vec4(max(front, back));
+#elif TETRALUX_MODE == TETRALUX_MODE_MINIMUM
+    result = vec4(min(front, back));
+#elif TETRALUX_MODE == TETRALUX_MODE_AVERAGE
+    result = vec4(0.5 * (front + back) * len, len, 0.0, 0.0);
+#elif TETRALUX_MODE == TETRALUX_MODE_CONTRIBUTION
+    Gathered segment = gatherSegment(front, back, len);
+    float shows = segment.smoothDepth + segment.otherDepth > 0.0 ? 1.0 : 0.0;
+    result = vec4(shows, segment.smoothDepth, 0.0, 0.0);
+#elif TETRALUX_MODE == TETRALUX_MODE_DEPTH
+    float step = firstShown(front, back);
+    if (step > 1e30) return false;
+    float along = front == back ? 0.0 : len * min(step / abs(back - front), 1.0);
+    result = vec4(distanceTo(cell, rho.x, pixel - centre) + along, 0.0, 0.0, 1.0);
+#else
+    vec3 view = vec3(0.0);
+    vec4 normalAndMagnitude = vec4(0.0);
+#if TETRALUX_GRADIENT
+    normalAndMagnitude = gradient;
+    view = -viewForward;  // towards the eye
+#if !TETRALUX_ORTHOGRAPHIC
+    view = -normalize(viewForward + (pixel.x - centre.x) * viewRight + (pixel.y - centre.y) * viewDown);
+#endif
+#endif
+#if TETRALUX_FULL_LIGHT || TETRALUX_ATTRIBUTES
+    setMiddle(cell, rho, dx, dy, pixel - centre);
+#endif
+    float across = 0.0;
+#if !TETRALUX_ORTHOGRAPHIC
+    across = cell.scalarPerX * dx + cell.scalarPerY * dy;
+#endif
+    float side = sign(scalarFall(across, cell.scalarPerRho));
+#if TETRALUX_DEPTH_COLOR
+    float middle = 0.5 * (distanceTo(cell, rho.x, pixel - centre) + distanceTo(cell, rho.y, pixel - centre));
+    depthShare = depthColor.a * clamp(depthRange.x + depthRange.y * middle, 0.0, 1.0);
+#endif
+    vec4 perOpacity = shadedSegment(front, back, len, side, view, normalAndMagnitude, cutNormal);
+#if TETRALUX_MODE == TETRALUX_MODE_FIRST_HIT
+    if (!segmentShows(front, back)) return false;
+    result = vec4(perOpacity.rgb, 1.0);
+#elif TETRALUX_MODE == TETRALUX_MODE_ABSORPTION
+    result = vec4(perOpacity.a, 0.0, 0.0, 0.0);
+#else
+    result = vec4(perOpacity.rgb * perOpacity.a, perOpacity.a);
+#endif
+#endif
+    return true;
+}

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A gathered segment (preint/gather_segment.glsl) with silhouette and light. Scalars and lengths in scene units (projection/cells/cell_setup.h).
+
+#if TETRALUX_GRADIENT_OPACITY
+uniform float gradientOpacity;
+#endif
+#if TETRALUX_LIGHTS && !TETRALUX_FULL_LIGHT
+uniform vec3 lights[TETRALUX_LIGHTS];     // towards each, unit, world space
+uniform float ambient, exponent, transmission;
+#endif
+
+// Whether α > 0. The table, which interpolates, cannot tell: it blurs the ends of the support.
+bool segmentShows(float front, float back) {
+    float low = min(front, back), high = max(front, back);
+    bool shows = false;
+#if TETRALUX_SUPPORTS
+    for (int i = 0; i < TETRALUX_SUPPORTS; ++i) {
+        shows = shows || (high > support[i].x && low < support[i].y);
+    }
+#endif
+#if TETRALUX_INTERFACES
+    for (int i = 0; i < TETRALUX_INTERFACES; ++i) {
+        shows = shows || (interfaceLayer[i].w > 0.0 && low < interfaceValue[i] && interfaceValue[i] <= high);
+    }
+#endif
+    return shows;
+}
+
+#if TETRALUX_DEPTH_COLOR
+uniform vec4 depthColor;  // colour and strength
+uniform vec2 depthRange;  // share of the way to the far end: at distance 0, per scene length
+float depthShare;         // how much of depthColor the segment takes
+#endif
+
+// Colour per α and α of a segment in view direction `view` (unit, towards the eye); `gradient` is the unit normal and
+// |g|, both zero where the scalar is constant; `fallSide` the sign of
+// s_f − s_b. `cutNormal` is lit where it is not zero. In modes that hide nothing depth stands
+// in α's place.
+vec4 shadedSegment(float front, float back, float len, float fallSide, vec3 view, vec4 gradient, vec3 cutNormal) {
+    float path = len;
+#if TETRALUX_DATA_SPACE && !TETRALUX_SCALE_INVARIANT
+    path = abs(front - back);  // looked up as a length, so that it can be scaled
+#endif
+    path *= interfaceScale;
+#if TETRALUX_MODE == TETRALUX_MODE_ADDITIVE
+    Gathered segment = emittedSegment(front, back, path);
+#elif TETRALUX_SAMPLED
+    Gathered segment = sampledSegment(front, back, TETRALUX_DATA_SPACE != 0 ? abs(front - back) * interfaceScale : path);
+#else
+    Gathered segment = gatherSegment(front, back, path);
+#endif
+    float depth = segment.smoothDepth + segment.otherDepth;
+    float plain = depth;
+#if TETRALUX_SILHOUETTE
+    float cosine = dot(gradient.xyz, view);
+#if TETRALUX_DATA_SPACE
+#if TETRALUX_SCALE_INVARIANT
+    float perScalar = segment.meanExtinction;
+#else
+    float perScalar = segment.smoothDepth / max(abs(front - back), 1e-30);
+#endif
+    float sharpened = silhouetteDepth(perScalar * gradient.w * len, segment.otherDepth, cosine);
+#else
+    float sharpened = silhouetteDepth(0.0, depth, cosine);
+#endif
+    depth = gradient.w > 0.0 ? sharpened : depth;
+#endif
+#if TETRALUX_GRADIENT_OPACITY
+    depth *= gradientOpacity * gradient.w;  // Kraus 2005, Equation 18
+    plain *= gradientOpacity * gradient.w;
+#endif
+    float opacity = opacityOf(depth);
+#if TETRALUX_APPROXIMATE_SILHOUETTE
+    if (gradient.w > 0.0) opacity = approximateSilhouetteOpacity(opacityOf(plain), plain, depth);
+#endif
+#if TETRALUX_LINEAR_OPACITY
+    opacity = linearOpacity(depth);
+#endif
+    vec3 color = segment.meanColor;
+#if TETRALUX_LIGHTS
+    bool cut = dot(cutNormal, cutNormal) > 0.5;
+    vec3 normal = cut ? cutNormal : gradient.xyz;
+    float side = cut ? 1.0 : fallSide;
+#endif
+#if TETRALUX_FULL_LIGHT
+    color = lightInFull(segment.meanColor, opacity, side, view, cut ? vec4(normal, 1.0) : gradient, cut);
+#elif TETRALUX_LIGHTS
+    color *= ambient;
+    if (gradient.w > 0.0 || cut) {
+        float transmitted = transmission * (1.0 - opacity);
+        for (int i = 0; i < TETRALUX_LIGHTS; ++i) {
+            color += lightTerm(segment.meanColor, normal, view, lights[i], side, transmitted, exponent);
+        }
+    }
+#endif
+#if TETRALUX_DEPTH_COLOR
+    color = mix(color, depthColor.rgb, depthShare);
+#endif
+#if TETRALUX_MODE == TETRALUX_MODE_ADDITIVE || TETRALUX_MODE == TETRALUX_MODE_ABSORPTION
+    return vec4(color, depth);
+#else
+    return vec4(color, opacity);
+#endif
+}

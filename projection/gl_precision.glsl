@@ -1,3 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-// In shaders what varies per pixel and what is the same for a whole cell are both float (projection/cell_interval.glsl).
-#define cell_real float

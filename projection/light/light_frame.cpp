@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/light/light_frame.h>
+
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include <projection/light/light_shadows.h>
+#include <projection/light/vertex_samples.h>
+
+namespace tetralux::projection {
+
+LightModelFloats lightModelFloats(const shading::ShadingSettings& settings) {
+    const shading::Material& material = settings.material;
+    const float through = settings.transmission ? 1.0f : 0.0f;
+    LightModelFloats model;
+    model.kind = static_cast<int>(settings.reflectance);
+    model.frontSpecular = glm::vec3(material.front.specular);
+    model.backSpecular = glm::vec3(material.back.specular);
+    model.frontExponent = static_cast<float>(material.front.exponent.value_or(settings.exponent));
+    model.backExponent = static_cast<float>(material.back.exponent.value_or(settings.exponent));
+    model.diffuse = static_cast<float>(material.diffuse);
+    model.specular = static_cast<float>(material.specular);
+    model.diffuseThrough = through * static_cast<float>(material.diffuseTransmission);
+    model.specularThrough = through * static_cast<float>(material.specularTransmission);
+    model.kappa = static_cast<float>(settings.wardExponent());
+    model.gamma = static_cast<float>(settings.anisotropy.gamma);
+    model.asymmetry = static_cast<float>(material.phaseAsymmetry);
+    model.ambient = glm::vec3(settings.ambient * settings.ambientColor);
+    return model;
+}
+
+std::vector<FrameLight> frameLights(const shading::ShadingSettings& settings, const SceneUnits& units,
+                                    const CameraFrame& frame) {
+    std::vector<FrameLight> lights;
+    for (const shading::Light& light : settings.lights) {
+        FrameLight one;
+        one.kind = static_cast<int>(light.kind);
+        one.color = glm::vec3(light.color);
+        if (light.kind == shading::Light::Kind::Directional) {
+            one.place = glm::vec3(glm::normalize(light.towards));
+        } else {
+            if (light.kind == shading::Light::Kind::Point)
+                one.place = glm::vec3((light.position - frame.eye) / units.length);
+            one.fade = glm::vec3(light.attenuation * glm::dvec3(1, units.length, units.length * units.length));
+        }
+        lights.push_back(one);
+    }
+    return lights;
+}
+
+std::shared_ptr<const shading::VertexLight> vertexLightOf(const Scene& scene) {
+    if (scene.vertexLight) return scene.vertexLight;
+    shading::VertexLight light = shading::vertexLight(*scene.mesh, scene.settings.shading, samplesVertices(scene));
+    if (light.shadowAt >= 0) addShadows(scene, light);
+    if (light.specularAt >= 0) addSpecularFactors(scene, light);
+    if (light.sampleAt >= 0) addSamples(scene, light);
+    return std::make_shared<const shading::VertexLight>(std::move(light));
+}
+
+Scene withVertexLight(Scene scene) {
+    scene.vertexLight = vertexLightOf(scene);
+    return scene;
+}
+
+}  // namespace tetralux::projection

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// Lights and materials as the fast engines read them: floats, lengths in scene units, directions along the world's
+/// axes, places relative to the eye (so that float holds them wherever the mesh lies).
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <projection/camera.h>
+#include <projection/cells/cell_setup.h>
+#include <projection/scene.h>
+#include <shading/vertex_light.h>
+
+namespace tetralux::projection {
+
+/// One light for one camera.
+struct FrameLight {
+    int kind = 0;        ///< 0 directional, 1 point, 2 at the eye
+    glm::vec3 place{0};  ///< direction towards it, or place relative to the eye
+    glm::vec3 color{1};
+    glm::vec3 fade{1, 0, 0};  ///< attenuation: constant, per scene length, per scene length squared
+};
+
+/// LightModel of shading/light_model.glsl, in float.
+struct LightModelFloats {
+    int kind = 0;
+    glm::vec3 frontSpecular, backSpecular;
+    float frontExponent, backExponent;
+    float diffuse, specular, diffuseThrough, specularThrough;
+    float kappa, gamma, asymmetry;
+    glm::vec3 ambient;
+};
+
+LightModelFloats lightModelFloats(const shading::ShadingSettings& settings);
+std::vector<FrameLight> frameLights(const shading::ShadingSettings& settings, const SceneUnits& units,
+                                    const CameraFrame& frame);
+
+/// What vertices carry for the scene's light: what the scene brings along, or else computed now.
+std::shared_ptr<const shading::VertexLight> vertexLightOf(const Scene& scene);
+
+/// The scene with that computed, so that several engines need not.
+Scene withVertexLight(Scene scene);
+
+}  // namespace tetralux::projection

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/opaque/opaque_layer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <mesh/plane_cut.h>
+#include <projection/light/arriving_light.h>
+#include <projection/light/corner_normals.h>
+#include <projection/opaque/ray_triangle.h>
+#include <projection/opaque/veiled_volume.h>
+
+namespace tetralux::projection {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr int tileSize = 32;  // pixels
+
+/// A slice may lie in a clipping plane: rounding must not decide whether it shows.
+constexpr double rangeTolerance = 1e-9;
+
+struct PixelBox {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // [x0, x1) × [y0, y1)
+    bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+int clampedPixel(double position, int size) {
+    return static_cast<int>(std::clamp(position, 0.0, static_cast<double>(size)));
+}
+
+}  // namespace
+
+namespace {
+
+void checkOpacity(double opacity, Mode mode) {
+    if (!(opacity >= 0.0) || !(opacity <= 1.0))
+        throw std::runtime_error(
+            fmt::format("slice opacity {}: not from 0 to 1; give a share of what is hidden", opacity));
+    if (opacity < 1.0 && !composesParts(mode))
+        throw std::runtime_error(
+            "slice opacity: this mode shows nothing behind a slice; take standard, scale-invariant, first-hit or "
+            "absorption, or slices of opacity 1");
+}
+
+}  // namespace
+
+OpaqueLayer::OpaqueLayer(const Scene& scene, const OpaqueObjects& objects)
+    : bounds_(scene.mesh->bounds),
+      association_(scene.mesh->association),
+      transferFunction_(scene.transferFunction),
+      shading_(scene.settings.shading),
+      surfaces_(objects.surfaces) {
+    if (shading_.needsShadows()) shadowAt_ = shadowsOf(scene);
+    std::uint32_t object = 0;
+    for (const Slice& slice : objects.slices) {
+        checkOpacity(slice.opacity, scene.settings.mode);
+        sliceOpacities_.push_back(slice.opacity);
+        const mesh::SurfaceMesh cut = mesh::cutByPlane(*scene.mesh, slice.point, slice.normal);
+        if (cut.triangles.empty()) {
+            const mesh::BoundingBox& box = scene.mesh->bounds;
+            throw std::runtime_error(fmt::format(
+                "slice through {},{},{}: misses the mesh; give a point within {},{},{} and {},{},{}", slice.point.x,
+                slice.point.y, slice.point.z, box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z));
+        }
+        append(cut, object++);
+    }
+    for (const OpaqueSurface& surface : surfaces_) append(*surface.mesh, object++);
+}
+
+void OpaqueLayer::append(const mesh::SurfaceMesh& part, std::uint32_t object) {
+    const auto base = static_cast<mesh::PointIndex>(positions_.size());
+    const bool ofCells = part.association == mesh::Association::Cell && !part.scalars.empty();
+    positions_.insert(positions_.end(), part.positions.begin(), part.positions.end());
+    if (!ofCells) scalars_.insert(scalars_.end(), part.scalars.begin(), part.scalars.end());
+    const bool smooth = object >= sliceOpacities_.size() && shading_.normals == shading::Normals::Smooth;
+    const auto normals = smooth ? cornerNormals(part) : std::vector<std::array<glm::dvec3, 3>>();
+    for (std::size_t i = 0; i < part.triangles.size(); ++i) {
+        const auto& [a, b, c] = part.triangles[i];
+        triangles_.push_back({{base + a, base + b, base + c}, ofCells ? part.scalars[i] : 0.0, object, {}});
+        if (smooth) triangles_.back().normals = normals[i];
+    }
+}
+
+/// Unit, to the eye's side of the triangle; zero where it has no area.
+glm::dvec3 OpaqueLayer::normalAt(const Triangle& triangle, const TriangleCrossing& where,
+                                 const glm::dvec3& direction) const {
+    const auto& [a, b, c] = triangle.corners;
+    const glm::dvec3 across = glm::cross(positions_[b] - positions_[a], positions_[c] - positions_[a]);
+    glm::dvec3 normal = across;
+    const auto& [na, nb, nc] = triangle.normals;
+    const glm::dvec3 smooth(where.blend(na.x, nb.x, nc.x), where.blend(na.y, nb.y, nc.y),
+                            where.blend(na.z, nb.z, nc.z));
+    if (glm::dot(smooth, smooth) > 0) normal = smooth;
+    const double size = glm::length(normal);
+    return size > 0 ? normal / (glm::dot(across, direction) > 0 ? -size : size) : glm::dvec3(0);
+}
+
+glm::dvec3 OpaqueLayer::surfaceColor(const OpaqueSurface& surface, const Triangle& triangle,
+                                     const TriangleCrossing& where, const RayFrame& ray, double distance) const {
+    if (surface.flat) return surface.color;
+    const glm::dvec3 normal = normalAt(triangle, where, ray.direction);
+    if (normal == glm::dvec3(0)) return surface.color;
+    glm::dvec3 light = shading_.ambient * shading_.ambientColor;
+    if (!shading_.lit()) light += (1.0 - glm::min(light, 1.0)) * std::max(0.0, -glm::dot(normal, ray.direction));
+    const glm::dvec3 place = ray.origin + distance * ray.direction;
+    for (const shading::Light& source : shading_.lights) {
+        const ArrivingLight arriving = arrivingLight(source, place, ray.direction, distance);
+        const double facing = glm::dot(normal, arriving.towards);
+        if (facing > 0) light += (shadowAt_ ? shadowAt_(source, place) : 1.0) * facing * arriving.color;
+    }
+    return surface.color * glm::min(light, 1.0);
+}
+
+glm::dvec3 OpaqueLayer::atDepth(const glm::dvec3& color, const DepthRange& depths, double distance) const {
+    const auto& by = shading_.depthColor;
+    return by ? glm::mix(color, by->color, by->strength * depths.shareAt(distance)) : color;
+}
+
+/// The transfer function's colour, as it is so that it can be read off; in shadow of the volume or of surfaces times
+/// a + (1 − a)·(mean transmittance to the lights), a the ambient light.
+glm::dvec3 OpaqueLayer::sliceColor(const Triangle& triangle, const TriangleCrossing& where,
+                                   const glm::dvec3& place) const {
+    const auto& [a, b, c] = triangle.corners;
+    const double scalar =
+        association_ == mesh::Association::Cell ? triangle.scalar : where.blend(scalars_[a], scalars_[b], scalars_[c]);
+    const glm::dvec3 color = transferFunction_.colorAt(scalar);
+    if (!shadowAt_) return color;
+    double arrives = 0;
+    for (const shading::Light& source : shading_.lights) arrives += shadowAt_(source, place);
+    arrives /= static_cast<double>(shading_.lights.size());
+    const glm::dvec3 ambient = glm::min(shading_.ambient * shading_.ambientColor, 1.0);
+    return color * (ambient + (1.0 - ambient) * arrives);
+}
+
+/// One camera's view of all triangles.
+class OpaqueLayer::Frame {
+public:
+    Frame(const OpaqueLayer& layer, const Camera& camera, PixelMaps& maps)
+        : layer_(layer),
+          camera_(camera),
+          frame_(cameraFrame(camera)),
+          depths_(depthRange(layer.bounds_, camera)),
+          maps_(maps),
+          tilesAcross_((camera.width + tileSize - 1) / tileSize),
+          tilesDown_((camera.height + tileSize - 1) / tileSize) {}
+
+    void render() {
+        bin();
+        hits_.assign(static_cast<std::size_t>(frame_.width) * static_cast<std::size_t>(frame_.height), {});
+        veils_.resize(static_cast<std::size_t>(tilesAcross_ * tilesDown_));
+        tbb::parallel_for(0, tilesAcross_ * tilesDown_, [&](int tile) { renderTile(tile); });
+        for (std::size_t pixel = 0; pixel < hits_.size(); ++pixel)
+            if (hits_[pixel].distance < infinite)
+                putOpaque(camera_, maps_, pixel, hits_[pixel].distance, hits_[pixel].color);
+        putVeils();
+    }
+
+private:
+    /// Those that nothing opaque hides, in their order.
+    void putVeils() {
+        for (const auto& part : veils_)
+            for (const Veil& veil : part)
+                if (veil.distance < hits_[veil.pixel].distance) maps_.veils.push_back(veil);
+        std::sort(maps_.veils.begin(), maps_.veils.end(), [](const Veil& a, const Veil& b) {
+            return a.pixel != b.pixel ? a.pixel < b.pixel : a.distance < b.distance;
+        });
+    }
+
+    struct Hit {
+        double distance = infinite;  // along the pixel's unit ray
+        glm::vec3 color{0};
+    };
+
+    /// Pixels whose rays can meet the triangle: those around its projection, or all when it reaches behind the eye.
+    PixelBox boxOf(const Triangle& triangle) const {
+        const double perPixel = glm::length(frame_.perPixelRight);
+        PixelBox all{0, 0, frame_.width, frame_.height};
+        glm::dvec2 low(infinite), high(-infinite);
+        double nearest = infinite, farthest = -infinite;
+        for (const mesh::PointIndex corner : triangle.corners) {
+            const glm::dvec3 p = layer_.positions_[corner] - frame_.eye;
+            const double depth = glm::dot(p, frame_.forward);
+            const double scale = 1.0 / (perPixel * (frame_.orthographic ? 1.0 : depth));
+            const glm::dvec2 at(glm::dot(p, frame_.right) * scale, -glm::dot(p, frame_.up) * scale);
+            low = glm::min(low, at + frame_.centre);
+            high = glm::max(high, at + frame_.centre);
+            nearest = std::min(nearest, depth);
+            farthest = std::max(farthest, depth);
+        }
+        if (!(farthest > 0)) return {};
+        if (!frame_.orthographic && !(nearest > 1e-9 * farthest)) return all;
+        constexpr double margin = 1e-3;  // pixels, far above rounding
+        return {clampedPixel(std::ceil(low.x - margin), all.x1), clampedPixel(std::ceil(low.y - margin), all.y1),
+                clampedPixel(std::floor(high.x + margin) + 1, all.x1),
+                clampedPixel(std::floor(high.y + margin) + 1, all.y1)};
+    }
+
+    template <class Use>
+    void forEachTile(const PixelBox& box, Use use) const {
+        if (box.empty()) return;
+        for (int y = box.y0 / tileSize; y <= (box.y1 - 1) / tileSize; ++y)
+            for (int x = box.x0 / tileSize; x <= (box.x1 - 1) / tileSize; ++x)
+                use(static_cast<std::size_t>(y * tilesAcross_ + x));
+    }
+
+    /// Triangles of each tile, ascending, so that the picture does not depend on the threads.
+    void bin() {
+        boxes_.resize(layer_.triangles_.size());
+        tbb::parallel_for(std::size_t{0}, boxes_.size(),
+                          [&](std::size_t i) { boxes_[i] = boxOf(layer_.triangles_[i]); });
+        tiles_.resize(static_cast<std::size_t>(tilesAcross_ * tilesDown_));
+        for (std::size_t i = 0; i < boxes_.size(); ++i)
+            forEachTile(boxes_[i], [&](std::size_t tile) { tiles_[tile].push_back(static_cast<std::uint32_t>(i)); });
+    }
+
+    /// The tile's rays and what each has met so far.
+    struct Tile {
+        PixelBox box;
+        std::array<RayFrame, tileSize * tileSize> rays;
+        struct Met {
+            double distance = infinite;
+            const Triangle* triangle = nullptr;
+            TriangleCrossing where{};
+        };
+        std::array<Met, tileSize * tileSize> met;
+
+        static std::size_t slot(const PixelBox& box, int x, int y) {
+            return static_cast<std::size_t>((y - box.y0) * tileSize + x - box.x0);
+        }
+    };
+
+    void renderTile(int number) {
+        const std::vector<std::uint32_t>& members = tiles_[static_cast<std::size_t>(number)];
+        if (members.empty()) return;
+        const auto tile = std::make_unique<Tile>();
+        const int x0 = number % tilesAcross_ * tileSize, y0 = number / tilesAcross_ * tileSize;
+        tile->box = {x0, y0, std::min(x0 + tileSize, frame_.width), std::min(y0 + tileSize, frame_.height)};
+        forEachPixel(tile->box,
+                     [&](int x, int y) { tile->rays[Tile::slot(tile->box, x, y)] = RayFrame(pixelRay(frame_, x, y)); });
+        for (const std::uint32_t index : members) meet(*tile, index, veils_[static_cast<std::size_t>(number)]);
+        forEachPixel(tile->box, [&](int x, int y) {
+            const std::size_t slot = Tile::slot(tile->box, x, y);
+            const auto& [distance, triangle, where] = tile->met[slot];
+            if (triangle != nullptr)
+                hits_[pixelNumber(x, y)] = {distance, glm::vec3(colorOf(*triangle, where, tile->rays[slot], distance))};
+        });
+    }
+
+    template <class Use>
+    static void forEachPixel(const PixelBox& box, Use use) {
+        for (int y = box.y0; y < box.y1; ++y)
+            for (int x = box.x0; x < box.x1; ++x) use(x, y);
+    }
+
+    std::size_t pixelNumber(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_.width) + static_cast<std::size_t>(x);
+    }
+
+    /// Which of the tile's rays the triangle is the nearest to so far; of a slice with opacity, all that it meets.
+    void meet(Tile& tile, std::uint32_t index, std::vector<Veil>& veils) const {
+        const Triangle& triangle = layer_.triangles_[index];
+        const auto& [a, b, c] = triangle.corners;
+        const std::array<glm::dvec3, 3> corners{layer_.positions_[a], layer_.positions_[b], layer_.positions_[c]};
+        const PixelBox& box = boxes_[index];
+        const PixelBox part{std::max(box.x0, tile.box.x0), std::max(box.y0, tile.box.y0), std::min(box.x1, tile.box.x1),
+                            std::min(box.y1, tile.box.y1)};
+        forEachPixel(part, [&](int x, int y) {
+            const std::size_t slot = Tile::slot(tile.box, x, y);
+            const RayFrame& ray = tile.rays[slot];
+            const std::array<RayPoint, 3> seen{ray.see(corners[0]), ray.see(corners[1]), ray.see(corners[2])};
+            const auto crossing = crossTriangle({seen[0].across, seen[1].across, seen[2].across}, triangle.corners);
+            if (!crossing) return;
+            const double t = crossing->blend(seen[0].t, seen[1].t, seen[2].t);
+            if (!(t > 0) || (isSlice(triangle) && !inRange(pixelNumber(x, y), t))) return;
+            if (const double opacity = opacityOf(triangle); opacity < 1.0) {
+                const glm::dvec3 color = opacity * colorOf(triangle, *crossing, ray, t);
+                veils.push_back({static_cast<std::uint32_t>(pixelNumber(x, y)), t, glm::vec4(color, opacity)});
+                return;
+            }
+            if (!(t < tile.met[slot].distance)) return;
+            tile.met[slot] = {t, &triangle, *crossing};
+        });
+    }
+
+    bool isSlice(const Triangle& triangle) const { return triangle.object < layer_.sliceOpacities_.size(); }
+
+    double opacityOf(const Triangle& triangle) const {
+        return isSlice(triangle) ? layer_.sliceOpacities_[triangle.object] : 1.0;
+    }
+
+    bool inRange(std::size_t pixel, double t) const {
+        const double tolerance = rangeTolerance * t;
+        return (maps_.nearest.empty() || t >= maps_.nearest[pixel] - tolerance) &&
+               (maps_.farthest.empty() || t <= maps_.farthest[pixel] + tolerance);
+    }
+
+    glm::dvec3 colorOf(const Triangle& triangle, const TriangleCrossing& where, const RayFrame& ray,
+                       double distance) const {
+        if (!isSlice(triangle))
+            return layer_.atDepth(layer_.surfaceColor(layer_.surfaces_[triangle.object - layer_.sliceOpacities_.size()],
+                                                      triangle, where, ray, distance),
+                                  depths_, distance);
+        return layer_.sliceColor(triangle, where, ray.origin + distance * ray.direction);
+    }
+
+    const OpaqueLayer& layer_;
+    const Camera& camera_;
+    const CameraFrame frame_;
+    const DepthRange depths_;
+    PixelMaps& maps_;
+    int tilesAcross_, tilesDown_;
+    std::vector<Hit> hits_;                          // by pixel
+    std::vector<std::vector<Veil>> veils_;           // by tile
+    std::vector<PixelBox> boxes_;                    // by triangle
+    std::vector<std::vector<std::uint32_t>> tiles_;  // triangles by tile
+};
+
+void OpaqueLayer::apply(const Camera& camera, PixelMaps& maps) const {
+    if (!triangles_.empty()) Frame(*this, camera, maps).render();
+}
+
+}  // namespace tetralux::projection

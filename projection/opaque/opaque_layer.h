@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// Opaque slices and surfaces within the volume: found once per pixel in double precision, the same for all engines.
+/// An engine composes the volume only as far as them, and they are put under its picture: C = C_volume + T·C_layer.
+/// Slices with an opacity below 1 stand between parts of the volume (PixelMaps::veils).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <projection/camera.h>
+#include <projection/light/light_shadows.h>
+#include <projection/opaque/opaque_objects.h>
+#include <projection/pixel_maps.h>
+#include <projection/scene.h>
+
+namespace tetralux::projection {
+
+struct RayFrame;
+struct TriangleCrossing;
+
+/// One of a scene's map sources; it comes behind clip planes, which leave out parts of slices (surfaces stay whole).
+class OpaqueLayer final : public PixelMapSource {
+public:
+    /// Cuts the slices out of the scene's mesh; its transfer function colours them, its lights fall on the surfaces.
+    /// Where there are shadows, the volume and the scene's shadow casters cast them on surfaces and slices. Slices
+    /// whose opacity is below 1 become veils. \throws std::runtime_error when a slice misses the mesh, or has an
+    /// opacity in a mode that composes no parts.
+    OpaqueLayer(const Scene& scene, const OpaqueObjects& objects);
+
+    void apply(const Camera& camera, PixelMaps& maps) const override;
+
+private:
+    class Frame;
+    struct Triangle {
+        std::array<mesh::PointIndex, 3> corners;
+        double scalar;                        // cell data: of the cell
+        std::uint32_t object;                 // slices first
+        std::array<glm::dvec3, 3> normals{};  // of smooth surfaces, at the corners
+    };
+
+    void append(const mesh::SurfaceMesh& part, std::uint32_t object);
+    glm::dvec3 normalAt(const Triangle& triangle, const TriangleCrossing& where, const glm::dvec3& direction) const;
+    glm::dvec3 surfaceColor(const OpaqueSurface& surface, const Triangle& triangle, const TriangleCrossing& where,
+                            const RayFrame& ray, double distance) const;
+    glm::dvec3 atDepth(const glm::dvec3& color, const DepthRange& depths, double distance) const;
+    glm::dvec3 sliceColor(const Triangle& triangle, const TriangleCrossing& where, const glm::dvec3& place) const;
+
+    mesh::BoundingBox bounds_;       // of the mesh
+    mesh::Association association_;  // of its scalar
+    preint::TransferFunction transferFunction_;
+    shading::ShadingSettings shading_;
+    ShadowAt shadowAt_;  // of the volume; empty: it casts none
+    std::vector<double> sliceOpacities_;
+    std::vector<OpaqueSurface> surfaces_;
+    std::vector<glm::dvec3> positions_;  // of all slices and surfaces
+    std::vector<double> scalars_;        // slices of point data: one per position of theirs
+    std::vector<Triangle> triangles_;
+};
+
+}  // namespace tetralux::projection

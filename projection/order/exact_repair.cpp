@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/order/exact_repair.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <utility>
+
+#include <tbb/parallel_sort.h>
+
+#include <projection/cells/cell_setup.h>
+#include <projection/order/float_limits.h>
+#include <projection/order/isosurface_ties.h>
+#include <projection/reference/reference_ray_caster.h>
+#include <projection/wrapped_engine.h>
+
+namespace tetralux::projection {
+
+namespace {
+
+/// Pixels beside a cell's rectangle in which float planes of a flat cell may be evaluated.
+constexpr int blockMargin = 16;
+
+class RepairedEngine final : public WrappedEngine {
+public:
+    RepairedEngine(std::unique_ptr<Engine> engine, const Scene& scene)
+        : WrappedEngine(std::move(engine)), scene_(scene), caster_(scene) {
+        const Mode mode = scene.settings.mode;
+        dense_ = mode == Mode::Standard || mode == Mode::ScaleInvariant || mode == Mode::FirstHit ||
+                 mode == Mode::Absorption;
+        if (dense_ && engine_->name() != "reference")
+            beyondFloat_ = cellsBeyondFloat(*scene.mesh, scene.transferFunction, integralOf(scene.settings.mode),
+                                            mode == Mode::FirstHit);
+    }
+
+    Image render(const View& view, FrameReport& report) override {
+        Image image = engine_->render(view, report);
+        doubtMore(view.camera, report);
+        if (scene_.settings.order == OrderMethod::Centroid) {  // asked for to see what it costs and what it spoils
+            report.pixelsWrong += report.doubtfulPixels.size();
+            return image;
+        }
+        if (report.doubtfulPixels.empty()) return image;
+        const auto start = std::chrono::steady_clock::now();
+        caster_.renderPixels(view, report.doubtfulPixels, image);
+        const double spent =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        report.stageMilliseconds["repair"] = spent;
+        report.frameMilliseconds += spent;
+        report.pixelsRepaired += report.doubtfulPixels.size();
+        return image;
+    }
+
+private:
+    /// Adds the pixels of cells beyond float, those where samples beside the centres may miss outlines and, where the
+    /// cell that a ray meets first shows, those where rounding would say which it is.
+    void doubtMore(const Camera& camera, FrameReport& report) const {
+        const CameraFrame frame = cameraFrame(camera);
+        std::vector<std::uint32_t> more;
+        if (dense_ && report.samplesBeside) more = tiedPixels(scene_, frame);
+        if (scene_.settings.mode == Mode::FirstHit && engine_->name() != "reference")
+            append(more, tiedEdgePixels(scene_, frame));
+        if (!beyondFloat_.empty()) append(more, pixelsBeyondFloat(frame));
+        if (more.empty()) return;
+        tbb::parallel_sort(more.begin(), more.end());
+        std::vector<std::uint32_t> all;
+        all.reserve(report.doubtfulPixels.size() + more.size());
+        std::merge(report.doubtfulPixels.begin(), report.doubtfulPixels.end(), more.begin(), more.end(),
+                   std::back_inserter(all));
+        all.erase(std::unique(all.begin(), all.end()), all.end());
+        report.doubtfulPixels = std::move(all);
+    }
+
+    /// Ascending.
+    std::vector<std::uint32_t> pixelsBeyondFloat(const CameraFrame& frame) const {
+        const CellProjector projector(*scene_.mesh, sceneUnits(*scene_.mesh), frame);
+        const auto width = static_cast<std::size_t>(frame.width);
+        std::vector<bool> doubtful(width * static_cast<std::size_t>(frame.height));
+        for (mesh::CellIndex cell : beyondFloat_) {
+            PixelRect rect;
+            if (projector.bounds(cell, rect) == SkipReason::OutsideView) continue;
+            // where such a cell ends is beyond float too, and engines look at whole blocks of pixels
+            const int x0 = std::max(0, rect.x0 - blockMargin), x1 = std::min(frame.width, rect.x1 + blockMargin);
+            for (int y = std::max(0, rect.y0 - blockMargin); y < std::min(frame.height, rect.y1 + blockMargin); ++y)
+                for (int x = x0; x < x1; ++x)
+                    doubtful[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = true;
+        }
+        std::vector<std::uint32_t> pixels;
+        for (std::uint32_t pixel = 0; pixel < doubtful.size(); ++pixel)
+            if (doubtful[pixel]) pixels.push_back(pixel);
+        return pixels;
+    }
+
+    static void append(std::vector<std::uint32_t>& pixels, const std::vector<std::uint32_t>& more) {
+        pixels.insert(pixels.end(), more.begin(), more.end());
+    }
+
+    Scene scene_;
+    bool dense_ = false;  // integrates opacity: a missed isosurface, or depth that float does not hold, shows
+    std::vector<mesh::CellIndex> beyondFloat_;
+    ReferenceRayCaster caster_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> withExactRepair(std::unique_ptr<Engine> engine, const Scene& scene) {
+    return std::make_unique<RepairedEngine>(std::move(engine), scene);
+}
+
+}  // namespace tetralux::projection

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/order/float_limits.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
+
+namespace tetralux::projection {
+
+namespace {
+
+constexpr double largestDepthError = 1e-3;
+constexpr double planeError = 1e-7;          // of the longest edge
+constexpr double obliqueness = 3.0;          // of the error of a length over that of a plane
+constexpr double largestScalarError = 3e-4;  // of a cell's range, where an isosurface may be crossed
+constexpr double opaqueDepth = 20.0;         // exp(−20) is below float's step: more or less depth does not show
+
+double largestExtinction(const preint::TransferFunction& function, double low, double high) {
+    double largest = std::max(function.extinctionAt(low), function.extinctionAt(high));
+    for (const auto& node : function.extinction)
+        if (node.scalar >= low && node.scalar <= high) largest = std::max(largest, node.extinction);
+    return largest;
+}
+
+struct CellShape {
+    double longestEdge, leastAltitude;
+};
+
+CellShape shapeOf(const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {
+    std::array<glm::dvec3, 4> p;
+    for (std::size_t k = 0; k < 4; ++k) p[k] = mesh.positions[mesh.cells[cell][k]];
+    double longest = 0, largestFace = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t j = i + 1; j < 4; ++j) longest = std::max(longest, glm::distance(p[i], p[j]));
+    for (const auto& face : mesh::faceVertices) {
+        const glm::dvec3& a = p[static_cast<std::size_t>(face[0])];
+        const glm::dvec3 ab = p[static_cast<std::size_t>(face[1])] - a, ac = p[static_cast<std::size_t>(face[2])] - a;
+        largestFace =
+            std::max(largestFace, glm::length(glm::cross(ab / longest, ac / longest)));  // in range for any size
+    }
+    const double volume = std::abs(mesh::sixVolumes(p[0] / longest, p[1] / longest, p[2] / longest, p[3] / longest));
+    return {longest, largestFace > 0 ? longest * volume / largestFace : 0.0};
+}
+
+/// Whether scalars on the cell's faces err by more than shows, where they do: everywhere, or where an isosurface may be
+/// met twice or not at all, since both sides of a face must agree about its scalar.
+bool mayMissScalar(const mesh::ScalarMesh& mesh, mesh::CellIndex cell, const preint::TransferFunction& function,
+                   bool everywhere) {
+    double low = mesh.scalarAt(cell, 0), high = low;
+    for (int k = 1; k < 4; ++k) {
+        low = std::min(low, mesh.scalarAt(cell, k));
+        high = std::max(high, mesh.scalarAt(cell, k));
+    }
+    const bool crossed = std::any_of(
+        function.isosurfaces.begin(), function.isosurfaces.end(),
+        [&](const auto& surface) { return surface.opacity > 0 && surface.value >= low && surface.value <= high; });
+    if (!crossed && !everywhere) return false;
+    const CellShape shape = shapeOf(mesh, cell);
+    return planeError * shape.longestEdge > largestScalarError * shape.leastAltitude;
+}
+
+double depthError(const mesh::ScalarMesh& mesh, mesh::CellIndex cell, const preint::TransferFunction& function,
+                  preint::Integral integral, double strongest) {
+    const CellShape shape = shapeOf(mesh, cell);
+    const double longest = shape.longestEdge, altitude = shape.leastAltitude;  // clang 14 captures no bindings
+    double low = mesh.scalarAt(cell, 0), high = low;
+    for (int k = 1; k < 4; ++k) {
+        low = std::min(low, mesh.scalarAt(cell, k));
+        high = std::max(high, mesh.scalarAt(cell, k));
+    }
+    auto error = [&](double extinction) {
+        if (integral == preint::Integral::Standard)
+            return extinction * altitude > opaqueDepth ? 0.0 : extinction * longest * planeError * obliqueness;
+        return extinction * (high - low) * std::min(1.0, planeError * longest / std::max(altitude, 1e-300));
+    };
+    if (!(error(strongest) > largestDepthError) && integral == preint::Integral::ScaleInvariant) return 0.0;
+    return error(largestExtinction(function, low, high));
+}
+
+}  // namespace
+
+std::vector<mesh::CellIndex> cellsBeyondFloat(const mesh::ScalarMesh& mesh, const preint::TransferFunction& function,
+                                              preint::Integral integral, bool scalarsShow) {
+    double strongest = 0;
+    for (const auto& node : function.extinction) strongest = std::max(strongest, node.extinction);
+    // no cell is longer than the mesh or ranges wider: most scenes end here
+    const double most = integral == preint::Integral::Standard
+                            ? strongest * mesh.bounds.diagonal() * planeError * obliqueness
+                            : strongest * (mesh.scalarMax - mesh.scalarMin);
+    if (!(most > largestDepthError) && function.isosurfaces.empty() && !scalarsShow) return {};
+
+    tbb::enumerable_thread_specific<std::vector<mesh::CellIndex>> found;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.cells.size(), 4096), [&](const auto& range) {
+        auto& mine = found.local();
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            const auto cell = static_cast<mesh::CellIndex>(i);
+            if ((most > largestDepthError &&
+                 depthError(mesh, cell, function, integral, strongest) > largestDepthError) ||
+                mayMissScalar(mesh, cell, function, scalarsShow))
+                mine.push_back(cell);
+        }
+    });
+    std::vector<mesh::CellIndex> all;
+    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+}  // namespace tetralux::projection

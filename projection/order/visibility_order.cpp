@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/order/visibility_order.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
+
+#include <projection/cells/cell_setup.h>
+#include <projection/order/boundary_reentry.h>
+#include <projection/order/key_sort.h>
+#include <projection/order/order_upkeep.h>
+#include <projection/order/power_order.h>
+#include <projection/order/visibility_relations.h>
+
+namespace tetralux::projection {
+
+struct VisibilitySorter::State {
+    const mesh::ScalarMesh& mesh;
+    std::string method;
+    OrderKeys keys;
+    std::uint64_t failingFaces = 0;
+    mesh::Adjacency adjacency;
+    RoundedPlanes planes;
+    VisibilityRelations relations{adjacency, planes};
+    std::vector<std::uint32_t> nearer;
+    std::vector<BoundaryFace> boundary;  // empty when it is convex: nothing to look for
+    VisibilityOrder last;
+    std::optional<CameraFrame> lastFrame;
+
+    void findOrder(const CellProjector& projector);
+
+    State(const mesh::ScalarMesh& m, OrderMethod wanted, Use use) : mesh(m) {
+        if (wanted == OrderMethod::Centroid) {
+            method = "centroid";
+            keys = OrderKeys::centroid(mesh);
+            return;
+        }
+        adjacency = mesh::buildAdjacency(m.cells, m.positions.size());
+        boundary = boundaryFaces(mesh, adjacency);
+        const bool convex =
+            adjacency.nonManifoldFaces == 0 && adjacency.foldedFaces == 0 && boundaryIsConvex(mesh, boundary);
+        method = convex ? "mpvo" : "mpvo+reentry";
+        if (convex) boundary = {};
+        if (convex && wanted != OrderMethod::Graph) {
+            const PowerOrder power(mesh, adjacency);
+            failingFaces = power.failingFaces();
+            if (failingFaces == 0) {
+                method = "power";
+                keys = OrderKeys::power(mesh, power.heights());
+                if (use == Use::Keys) adjacency = {};
+            }
+        }
+        if (!adjacency.neighbours.empty()) planes = RoundedPlanes(mesh);
+    }
+};
+
+VisibilitySorter::VisibilitySorter(const mesh::ScalarMesh& mesh, OrderMethod method, Use use)
+    : state_(std::make_unique<State>(mesh, method, use)) {
+    state_->last.method = state_->method;
+}
+VisibilitySorter::~VisibilitySorter() = default;
+
+const std::string& VisibilitySorter::method() const {
+    return state_->method;
+}
+const OrderKeys& VisibilitySorter::keys() const {
+    return state_->keys;
+}
+const mesh::Adjacency& VisibilitySorter::adjacency() const {
+    return state_->adjacency;
+}
+std::uint64_t VisibilitySorter::failingFaces() const {
+    return state_->failingFaces;
+}
+
+namespace {
+
+std::vector<mesh::CellIndex> sortedByKeys(const OrderKeys& keys, const CameraFrame& frame) {
+    std::vector<mesh::CellIndex> order(keys.planes().size());
+    std::iota(order.begin(), order.end(), mesh::CellIndex{0});
+    KeySorter().sort(keys, keys.eye(frame), order);
+    return order;
+}
+
+double distanceOf(const mesh::ScalarMesh& mesh, const CameraFrame& frame, mesh::CellIndex cell) {
+    glm::dvec3 sum(0);
+    for (mesh::PointIndex p : mesh.cells[cell]) sum += mesh.positions[p] - frame.eye;
+    return frame.orthographic ? glm::dot(sum, frame.forward) : glm::length(sum);
+}
+
+/// Williams' MPVO as a topological sort (Kahn), nearest first. Where only cycles are left the nearest remaining cell is
+/// taken out of turn: `cyclicCells` counts those. `nearer` is memory kept from call to call.
+void sortByRelations(const VisibilityRelations& relations, const mesh::ScalarMesh& mesh, const CameraFrame& frame,
+                     std::vector<std::uint32_t>& nearer, VisibilityOrder& order) {
+    constexpr std::size_t ahead = 12;  // cells whose neighbours come into the cache while others are looked at
+    const std::size_t count = relations.cellCount();
+    nearer.resize(count);  // how many unordered cells lie directly in front
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 8192), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i)
+            nearer[i] = relations.countBefore(static_cast<mesh::CellIndex>(i));
+    });
+    order.frontToBack.resize(count + 1);  // `release` writes one beyond what it finds
+    mesh::CellIndex* const sorted = order.frontToBack.data();
+    std::size_t done = 0, found = 0;
+    for (mesh::CellIndex cell = 0; cell < count; ++cell)
+        if (nearer[cell] == 0) sorted[found++] = cell;
+    auto drain = [&] {
+        while (done < found) {
+            if (done + ahead < found) relations.prefetch(sorted[done + ahead]);
+            found = relations.release(sorted[done++], nearer.data(), sorted, found);
+        }
+    };
+    drain();
+    constexpr std::uint32_t takenOut = 1u << 31;  // no cell is counted off as often
+    order.cyclicCells = 0;
+    std::vector<std::pair<double, mesh::CellIndex>> remaining;
+    for (mesh::CellIndex cell = 0; found < count && cell < count; ++cell)
+        if (nearer[cell] > 0) remaining.emplace_back(distanceOf(mesh, frame, cell), cell);
+    std::sort(remaining.begin(), remaining.end());
+    for (const auto& [distance, cell] : remaining) {
+        if (nearer[cell] == 0) continue;
+        ++order.cyclicCells;
+        nearer[cell] = takenOut;
+        sorted[found++] = cell;
+        drain();
+    }
+    order.frontToBack.resize(count);
+}
+
+void invert(const std::vector<mesh::CellIndex>& order, std::vector<std::uint32_t>& places) {
+    places.resize(order.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, order.size(), 8192), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) places[order[i]] = static_cast<std::uint32_t>(i);
+    });
+}
+
+/// Adds the pixels in which both cells of a pair that stands the wrong way round can be seen: a ray is composed wrongly
+/// only if two cells that follow one another along it do.
+void doubtPairs(const std::vector<CellPair>& wrong, const CellProjector& projector, const CameraFrame& frame,
+                std::vector<std::uint32_t>& doubtfulPixels) {
+    for (const auto& [near, far] : wrong) {
+        PixelRect a, b;
+        if (projector.bounds(near, a) != SkipReason::None || projector.bounds(far, b) != SkipReason::None) continue;
+        for (int y = std::max(a.y0, b.y0); y < std::min(a.y1, b.y1); ++y)
+            for (int x = std::max(a.x0, b.x0); x < std::min(a.x1, b.x1); ++x)
+                doubtfulPixels.push_back(static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame.width) +
+                                         static_cast<std::uint32_t>(x));
+    }
+    std::sort(doubtfulPixels.begin(), doubtfulPixels.end());
+    doubtfulPixels.erase(std::unique(doubtfulPixels.begin(), doubtfulPixels.end()), doubtfulPixels.end());
+}
+
+bool sameView(const CameraFrame& a, const CameraFrame& b) {
+    return a.eye == b.eye && a.forward == b.forward && a.right == b.right && a.up == b.up &&
+           a.perPixelRight == b.perPixelRight && a.orthographic == b.orthographic && a.width == b.width &&
+           a.height == b.height && a.sampleShift == b.sampleShift;
+}
+
+}  // namespace
+
+/// The order by keys, by the last frame's order repaired, or by the relations alone: the first that keeps every
+/// relation. Which pixels a cycle leaves in doubt is told by the relations that the order breaks.
+void VisibilitySorter::State::findOrder(const CellProjector& projector) {
+    const CameraFrame& frame = projector.frame();
+    relations.see(projector);
+    last.doubtfulPixels.clear();
+    if (!boundary.empty()) {
+        Reentry reentry = findReentry(mesh, boundary, frame, projector.points());
+        last.doubtfulPixels = std::move(reentry.doubtfulPixels);
+        relations.setGaps(std::move(reentry.edges));
+    }
+    const bool hasLast = !last.frontToBack.empty() && last.cyclicCells == 0;
+    last.cyclicCells = 0;
+    if (hasLast && relations.mostlyHold(last.places)) {
+        const std::vector<CellPair> wrong = relations.violations(last.places);
+        last.upkeep = wrong.empty() ? "kept" : "repaired";
+        if (wrong.empty()) return;
+        if (keys.empty() && repairOrder(relations, wrong, last.frontToBack, last.places)) return;
+    }
+    last.upkeep = "sorted";
+    if (!keys.empty()) {
+        last.frontToBack = sortedByKeys(keys, frame);
+        invert(last.frontToBack, last.places);
+        if (relations.violations(last.places).empty()) return;  // else keys rounded, or the eye is far away
+    }
+    sortByRelations(relations, mesh, frame, nearer, last);
+    invert(last.frontToBack, last.places);
+    if (last.cyclicCells > 0) doubtPairs(relations.violations(last.places), projector, frame, last.doubtfulPixels);
+}
+
+const VisibilityOrder& VisibilitySorter::sort(const CameraFrame& frame) {
+    return sort(CellProjector(state_->mesh, sceneUnits(state_->mesh), frame));
+}
+
+const VisibilityOrder& VisibilitySorter::sort(const CellProjector& projector) {
+    State& state = *state_;
+    const CameraFrame& frame = projector.frame();
+    if (!state.lastFrame || !sameView(*state.lastFrame, frame)) {
+        if (state.method == "centroid") {
+            state.last.frontToBack = sortedByKeys(state.keys, frame);
+            invert(state.last.frontToBack, state.last.places);
+        } else {
+            state.findOrder(projector);
+        }
+        state.lastFrame = frame;
+    } else {
+        state.last.upkeep = "kept";
+    }
+    return state.last;
+}
+
+}  // namespace tetralux::projection

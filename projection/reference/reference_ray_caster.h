@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// The yardstick: every pixel's ray cut by every cell that it meets, in double precision, straight from the definition
+/// of the image. It shares no formula of projection or integration with the fast engines: no table, no projected
+/// planes.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+#include <preint/exact_integral.h>
+#include <projection/camera.h>
+#include <projection/image/image.h>
+#include <projection/pixel_maps.h>
+#include <projection/scene.h>
+
+namespace tetralux::projection {
+
+/// Where a ray runs through one cell: distances ≥ 0 along the ray (mesh units) and the scalars there.
+struct RaySegment {
+    double tIn, tOut;
+    double scalarIn, scalarOut;
+    mesh::CellIndex cell;
+    bool cutInFront = false;  ///< begins where a pixel map lets the volume begin
+};
+
+struct RayCastCounts {
+    std::uint64_t cellsDrawn = 0;  ///< cells that at least one ray meets
+    std::uint64_t segments = 0;
+    std::uint64_t overlaps =
+        0;  ///< segments that begin clearly before the previous one ended: cells that interpenetrate
+};
+
+class ReferenceRayCaster {
+public:
+    explicit ReferenceRayCaster(const Scene& scene);
+
+    /// The whole image, within the limits of the view's pixel maps.
+    Image render(const View& view, RayCastCounts& counts) const;
+
+    /// Only the pixels named (y·width + x, ascending), written into `image`, which has the camera's size.
+    void renderPixels(const View& view, const std::vector<std::uint32_t>& pixels, Image& image) const;
+
+    /// The segments of the ray through pixel coordinates (x, y), whole at pixel centres, sorted by depth: for tests and
+    /// inspection. O(cells).
+    std::vector<RaySegment> segmentsAt(const Camera& camera, double x, double y) const;
+
+private:
+    struct Pass;
+    /// What the pixel maps say of one pixel.
+    struct PixelLimits {
+        double nearest = 0.0, farthest = HUGE_VAL;
+        glm::dvec3 cutNormal{0};  ///< used for light where a segment begins at `nearest`; 0: none
+        double extinctionScale = 1.0;
+        DepthRange depths{0.0, 1.0};                      ///< of the camera, the same for all pixels
+        std::span<const Veil> veils;                      ///< of the pixel, by distance
+        double pixelAtEye = 0.0, pixelPerDistance = 0.0;  ///< size of a pixel where a ray begins, and beyond
+    };
+    static PixelLimits limitsAt(const PixelMaps* maps, std::size_t pixel);
+    glm::dvec4 colorOf(const Ray& ray, const PixelLimits& limits, std::vector<RaySegment>& segments) const;
+    glm::dvec4 betweenVeils(const Ray& ray, const preint::ExactIntegral& exact, const PixelLimits& limits,
+                            const std::vector<RaySegment>& segments) const;
+    glm::dvec4 composite(const Ray& ray, const preint::ExactIntegral& exact, const PixelLimits& limits,
+                         std::vector<RaySegment>& segments) const;
+
+    Scene scene_;  // with what its vertices carry for light
+    preint::ExactIntegral exact_;
+};
+
+}  // namespace tetralux::projection

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// Internal: what one segment of a reference ray shows before silhouette and light, by mode and classification.
+#pragma once
+
+#include <optional>
+
+#include <preint/exact_integral.h>
+#include <projection/reference/reference_ray_caster.h>
+
+namespace tetralux::projection {
+
+/// Colour per depth that is seen, and optical depths. In modes that hide nothing the colour is ∫ c τ/∫ τ and an
+/// isosurface's depth its opacity.
+struct UnshadedSegment {
+    glm::dvec3 meanColor{0};
+    double depth = 0.0;        ///< all of it
+    double smoothDepth = 0.0;  ///< without isosurfaces
+};
+
+/// `position` of the middle of the segment, mesh units, is what pre-classification interpolates at.
+UnshadedSegment unshadedSegment(const preint::ExactIntegral& exact, const Scene& scene, const RaySegment& segment,
+                                const glm::dvec3& middle);
+
+/// Cuts a segment to what lies between two distances; false when nothing does.
+bool limit(RaySegment& segment, double nearest, double farthest);
+
+/// The function with extinction and the depth of its isosurfaces multiplied by `scale`.
+preint::TransferFunction scaledExtinction(preint::TransferFunction function, double scale);
+
+/// Distance along the ray to the first point of the segment with τ > 0 or an isosurface.
+std::optional<double> firstShownAt(const preint::ExactIntegral& exact, const RaySegment& segment);
+
+}  // namespace tetralux::projection

@@ -30,7 +30,7 @@ public:
                  mode == Mode::Absorption;
         if (dense_ && engine_->name() != "reference")
             beyondFloat_ = cellsBeyondFloat(*scene.mesh, scene.transferFunction, integralOf(scene.settings.mode),
-                                            mode == Mode::FirstHit);
+                                            mode == Mode::FirstHit, engine_->name() == "gl");
     }
 
     Image render(const View& view, FrameReport& report) override {

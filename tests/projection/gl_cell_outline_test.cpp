@@ -63,7 +63,10 @@ TEST(CellOutline, HoldsNeedlesAndPoints) {
     for (const double width : {1e-2, 1e-5, 1e-9, 0.0}) {
         for (int i = 0; i < 2000; ++i) {
             std::array<glm::dvec2, 4> corners;
-            for (auto& corner : corners) corner = {along(random), 3 + 0.7 * corner.x + width * across(random)};
+            for (auto& corner : corners) {
+                const double x = along(random);
+                corner = {x, 3 + 0.7 * x + width * across(random)};
+            }
             expectHolds(corners);
         }
     }

@@ -32,17 +32,19 @@ struct CellLook {
     std::size_t j;                           ///< its place in the batch
     float gradient;                          ///< |g|, scene scalars per scene length
     float steepness, perSteepness;           ///< |g|·|z_c|, and one over it (0 where that is 0)
+    float lengthScale;                       ///< of Segments::length
     float normal[3];                         ///< (right, down, forward)
     float lightSide[QuickLook::mostLights];  ///< n·l
     /// −r, (right, down, forward): its product with the pixel's unit direction is r·v.
     float reflected[QuickLook::mostLights][3];
 };
 
-template <Look look>
+template <Look look, bool ScaleInvariant>
 HWY_INLINE void setLook(const QuickLook& quick, const CellBatch& batch, std::size_t j, CellLook& cell) {
     cell.j = j;
     cell.gradient = batch.gradient[j];
     cell.steepness = batch.gradient[j] * std::abs(batch.scale[j]);
+    cell.lengthScale = ScaleInvariant ? batch.gradient[j] * batch.scale[j] : batch.scale[j];
     if constexpr (look == Look::Silhouettes) return;
     const float n[3] = {batch.normal[0][j], batch.normal[1][j], batch.normal[2][j]};
     if constexpr (look == Look::Lamps) {

@@ -48,7 +48,9 @@ struct LookedSegments {
     const Segments& segments;
 
     HWY_INLINE bool silhouettes() const {
-        return shows == CellShows::NarrowPeak || ((!Lit || frame.look.silhouettes) && cell.gradient > 0);
+        // without a gradient the scale-invariant integral shows nothing
+        return shows == CellShows::NarrowPeak ||
+               ((!Lit || frame.look.silhouettes) && (ScaleInvariant || cell.gradient > 0));
     }
 
     HWY_INLINE void add(std::size_t first, std::size_t last, ColorSink& sink) const {
@@ -73,16 +75,28 @@ private:
         const real half = real(0.5f) * (segments.back - segments.front);
         const real middle = segments.front + half - real(piece.middle);
         const real path = ScaleInvariant ? abs(half + half) : segments.length;
-        const real slope(piece.extinctionSlope);
-        const real extinction = max(real(piece.extinction) + slope * middle, real(0.0f));
-        const real depth = path * extinction, halfStep = path * slope * half;
-        if (HWY_UNLIKELY(!none(either(depth > pieceDepthLimit(), abs(halfStep) > pieceSlopeLimit())))) return false;
-        real opacity = pieceOpacity(depth), skew = half * pieceSkew(depth, halfStep);
+        const real step = real(piece.extinctionSlope) * half;
+        const real extinction = max(real(piece.extinction) + real(piece.extinctionSlope) * middle, real(0.0f));
+        const real depth = path * extinction, halfStep = path * step;
+        const mask steep = abs(halfStep) > pieceSlopeLimit();
+        real opacity, skew;
         if (silhouettes()) {
-            const real thin = max(opacity, real(1e-37f));
-            opacity = anyOpacity(ScaleInvariant ? real(cell.gradient) * segments.length * extinction
-                                                : depth * silhouetteFactor(cell, block));
-            skew = skew * (opacity * reciprocal(thin));
+            // α′/α = D′/D·(α′/D′)/(α/D), where D′/D is that of the paths
+            const real longer = ScaleInvariant ? segments.length : path * silhouetteFactor(cell, block);
+            const real longerDepth = longer * extinction;
+            real perExtinction = longer * pieceOpacityPerDepth(longerDepth);  // α′/extinction
+            if (HWY_UNLIKELY(!none(either(max(depth, longerDepth) > pieceDepthLimit(), steep)))) {
+                if (!none(either(depth > pieceDepthLimit(), steep))) return false;
+                const real fade = fadeOf(min(longerDepth, real(80.0f)));
+                perExtinction = select(longerDepth > pieceDepthLimit(),
+                                       (real(1.0f) - fade) * reciprocal(max(extinction, real(1e-37f))), perExtinction);
+            }
+            opacity = extinction * perExtinction;
+            skew = half * perExtinction * pieceLean(extinction, step, depth, halfStep);
+        } else {
+            if (HWY_UNLIKELY(!none(either(depth > pieceDepthLimit(), steep)))) return false;
+            opacity = pieceOpacity(depth);
+            skew = half * pieceSkew(depth, halfStep);
         }
         const real weighted = middle * opacity + skew;
         if constexpr (Lit)
@@ -138,8 +152,8 @@ private:
             const real least(1e-37f);
             real depth(0.0f);
             if constexpr (ScaleInvariant)
-                depth = whole.smoothDepth * reciprocal(max(abs(segments.back - segments.front), least)) *
-                        (real(cell.gradient) * segments.length);
+                depth =
+                    whole.smoothDepth * reciprocal(max(abs(segments.back - segments.front), least)) * segments.length;
             if constexpr (Peaks || !ScaleInvariant) {
                 const real other = ScaleInvariant ? whole.otherDepth : whole.smoothDepth + whole.otherDepth;
                 depth += other * silhouetteFactor(cell, block);

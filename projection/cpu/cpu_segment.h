@@ -140,7 +140,7 @@ HWY_INLINE void addPiece(const TransferPiece& piece, real middle, real half, rea
 /// A segment of every pixel of a block. Where a pixel has none, `length` is 0 and both scalars are equal.
 struct Segments {
     real front, back;  ///< scalars
-    real length;       ///< scene lengths
+    real length;       ///< scene lengths; for the scale-invariant integral with a look times |g| (cpu_look.h)
     mask live;
 };
 

@@ -142,7 +142,7 @@ private:
         } else if constexpr (integrates) {
             findPieces<Peaks>(*frame_.transfer, batch_, j, first, last);
         }
-        if constexpr (look != Look::General) setLook<look>(frame_.look, batch_, j, look_);
+        if constexpr (look != Look::General) setLook<look, ScaleInvariant>(frame_.look, batch_, j, look_);
         const CellBlocks blocks{j, &order, xBegin, yBegin, x1, y1, first, last};
         if constexpr (looksAtPeaks && look == Look::Silhouettes) {
             if (HWY_LIKELY(peakLooks_.peak[j] != nullptr && look_.gradient > 0 && peakLooks_.narrow(j)))
@@ -184,7 +184,7 @@ private:
         segments.live = live;
         const cell_real scalar{batch_.scalar[j]}, perX{batch_.scalarPerX[j]}, perY{batch_.scalarPerY[j]},
             perRho{batch_.scalarPerRho[j]}, low{batch_.scalarLow[j]}, high{batch_.scalarHigh[j]},
-            scale{batch_.scale[j]};
+            scale{look == Look::General ? batch_.scale[j] : look_.lengthScale};
         const real rayLength = loadAt(px_.rayLength + at);
         if constexpr (Orthographic) {
             segments.front = scalarOrthographic(scalar, perX, perY, perRho, dx, dy, in, low, high);

@@ -39,11 +39,25 @@ TEST(CpuPiece, WeightsOfFinePieces) {
         }
 }
 
+// V·D/α, the paths 1: what silhouettes multiply by another depth's α′/D′. Threshold: V's.
+TEST(CpuPiece, LeanOfShortPieces) {
+    for (int i = 0; i <= 200; ++i)
+        for (int j = -50; j <= 50; ++j) {
+            const double depth = i / 200.0, half = std::min(depth, 0.5) * j / 50.0;
+            const auto exact = preint::linearPieceWeights(depth - half, depth + half);
+            const double opacityPerDepth = depth > 0 ? (exact.frontWeight + exact.backWeight) / depth : 1.0;
+            EXPECT_NEAR(glsl::pieceLean(depth, half, depth, half),
+                        (exact.backWeight - exact.frontWeight) / opacityPerDepth, 1.4e-5)
+                << depth << " " << half;
+        }
+}
+
 TEST(CpuPiece, ThinPiecesKeepTheirPrecision) {
     for (double depth : {1e-4, 1e-8, 1e-12, 1e-30}) {
         EXPECT_NEAR(glsl::pieceOpacity(depth) / depth, 1.0, depth);
         // V → (d_b − d_f)/6
         EXPECT_NEAR(glsl::pieceSkew(depth, 0.5 * depth) / (depth / 6.0), 1.0, 1e-5 + 2 * depth);
+        EXPECT_NEAR(glsl::pieceLean(depth, 0.5 * depth, depth, 0.5 * depth) / (depth / 6.0), 1.0, 1e-5 + 2 * depth);
     }
 }
 

@@ -223,7 +223,7 @@ std::size_t GlResidentCells::prepare(const CameraFrame& frame, const std::vector
     select(kernel, frame, order == nullptr ? visible_.name() : order_->name(), count);
     if (keys_ != nullptr)
         sort_.sort(plan_.name(), offsetof(PlanHead, sortGroups), offsetof(PlanHead, settleGroups), keyed_.name(),
-                   scratch_.name(), keyPlanes_.name(), keys_->eye(frame));
+                   scratch_.name(), keyPlanes_.name(), keys_->eye(frame), checks_);
     if (checks_) check(kernel);
     return count;
 }

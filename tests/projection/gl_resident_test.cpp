@@ -14,7 +14,6 @@
 #include <projection/gl/gl_frame_target.h>
 #include <projection/gl/gl_path.h>
 #include <projection/gl/gl_resident_cells.h>
-#include <projection/light/light_frame.h>
 #include <projection/order/key_sort.h>
 #include <projection/order/visibility_order.h>
 #include <projection/order/visibility_relations.h>
@@ -36,19 +35,11 @@ TEST_P(ResidentModes, LikeStream) {
     expectSame(scene, views());
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ResidentModes,
-                         testing::Values(Mode::Standard, Mode::ScaleInvariant, Mode::Mip, Mode::Minimum, Mode::Average,
-                                         Mode::Additive, Mode::Emission, Mode::Absorption, Mode::FirstHit, Mode::Depth,
-                                         Mode::Contribution, Mode::DataContribution));
+INSTANTIATE_TEST_SUITE_P(All, ResidentModes, testing::ValuesIn(pathModes));
 
 TEST(Resident, SilhouettesAndLights) {
-    Scene scene = sceneOf(jitteredBoxMesh(8, 0.2, 5, waves), smoothFunction(0.1, 0.9));
-    scene.settings.shading.silhouette = true;
-    scene.settings.shading.lights = {{glm::dvec3(0, 0, 1)}, {glm::dvec3(0.6, 0.8, 0)}};
-    expectSame(scene, {views()[0]});
-    scene.settings.shading.silhouette = false;
-    scene.settings.shading.normals = shading::Normals::Smooth;  // what vertices carry
-    test::expectSame(withVertexLight(scene), views(), "resident", "auto");
+    expectSame(litScene(8, false), {views()[0]});
+    test::expectSame(litScene(8, true), views(), "resident", "auto");
 }
 
 TEST(Resident, CellDataAndInvisibleCells) {
@@ -115,6 +106,17 @@ TEST(Resident, TiesAreSettled) {
         EXPECT_GT(stream.report.cellsDrawn, n == 3 ? 20u : 1000u);
         EXPECT_LE(compareImages(stream.image, resident.image).max, roundingOnly);
         EXPECT_EQ(resident.report.dataPath, "resident") << n;
+    }
+}
+
+// Along an axis all cells of a grid's layer have one key, more than one lane of the GPU settles; none lies before
+// another.
+TEST(Resident, LayersOfAGridStayOnTheGpu) {
+    const Scene scene = sceneOf(boxMesh(24, waves), smoothFunction(0.1, 0.9));
+    for (const glm::dvec3& eye : {glm::dvec3(0.5, 0.5, 3), glm::dvec3(3, 0.5, 0.5)}) {
+        Camera camera = cameraAt(eye);
+        camera.orthographicHeight = 1.2;
+        expectSame(scene, {camera});
     }
 }
 

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <projection/gl/gl_engine.h>
+#include <projection/light/light_frame.h>
 #include <tests/support/analytic_scenes.h>
 
 namespace tetralux::test {
@@ -79,6 +80,20 @@ inline void expectSame(const Scene& scene, const std::vector<View>& views, const
 
 inline void expectSame(const Scene& scene, const std::vector<View>& views, const std::string& path) {
     for (const std::string context : {"egl", "osmesa"}) expectSame(scene, views, path, context);
+}
+
+inline const std::vector<Mode> pathModes{
+    Mode::Standard, Mode::ScaleInvariant, Mode::Mip,      Mode::Minimum, Mode::Average,      Mode::Additive,
+    Mode::Emission, Mode::Absorption,     Mode::FirstHit, Mode::Depth,   Mode::Contribution, Mode::DataContribution};
+
+/// In two lights, with silhouettes or with smooth normals, which vertices carry.
+inline Scene litScene(int n, bool smooth) {
+    Scene scene = sceneOf(jitteredBoxMesh(n, 0.2, 5, waves), smoothFunction(0.1, 0.9));
+    scene.settings.shading.lights = {{glm::dvec3(0, 0, 1)}, {glm::dvec3(0.6, 0.8, 0)}};
+    scene.settings.shading.silhouette = !smooth;
+    if (!smooth) return scene;
+    scene.settings.shading.normals = shading::Normals::Smooth;
+    return withVertexLight(scene);
 }
 
 /// From outside, from between the cells, in parallel, and so near that outlines reach far beyond the image.

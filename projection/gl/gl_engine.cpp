@@ -296,7 +296,6 @@ const GlCellProgram& GlEngine::beginFrame(const View& view, const CameraFrame& f
     const bool limited = view.maps != nullptr && view.maps->changeVolume();
     const double depthReference = depthReferenceOf(scene_.mesh->bounds, frame, units_);
     if (limited) {
-        checkScales(*view.maps);
         if (!state_->limits) state_->limits.emplace(*state_->gl);
         state_->limits->upload(*view.maps, frame, units_, depthReference);
         state_->limits->bind(limitsUnit);
@@ -343,11 +342,8 @@ void GlEngine::drawStreamed(const CameraFrame& frame, const GlCellProgram& cellP
 
 void GlEngine::drawRaster(const CameraFrame& frame, const GlCellProgram& cellProgram,
                           const std::vector<mesh::CellIndex>* order, FrameReport& report) {
-    Stopwatch watch;
     state_->fragments->begin();
     state_->resident->draw(frame, order, outlineMargin(*state_->gl, frame), [&] { cellProgram.resume(); });
-    report.stageMilliseconds["upload"] =
-        watch.lap();  // and shaders on their way: what they take is seen only at the end
     state_->fragments->end();
     report.fragments = state_->fragments->count();
     report.dataPath = "resident";
@@ -355,12 +351,15 @@ void GlEngine::drawRaster(const CameraFrame& frame, const GlCellProgram& cellPro
 
 void GlEngine::drawTiles(const CameraFrame& frame, const GlCellProgram& cellProgram,
                          const std::vector<mesh::CellIndex>* order, FrameReport& report) {
-    const double margin = outlineMargin(*state_->gl, frame);
-    do {
+    const auto draw = [&] {
+        state_->resident->drawTiles(frame, order, outlineMargin(*state_->gl, frame), *state_->tiles,
+                                    state_->target->texture(), [&] { cellProgram.resume(); });
+    };
+    draw();
+    while (state_->tiles->overflowed()) {
         state_->target->begin(frame.width, frame.height, clearValue(mode()));
-        state_->resident->drawTiles(frame, order, margin, *state_->tiles, state_->target->texture(),
-                                    [&] { cellProgram.resume(); });
-    } while (state_->tiles->overflowed());
+        draw();
+    }
     const GlTileCounts counts = state_->tiles->counts();
     report.fragments = counts.fragments;
     report.tileEntries = counts.entries;
@@ -391,7 +390,7 @@ bool GlEngine::drawInOrder(const View& view, const CameraFrame& frame, GlDrawing
         drawRaster(frame, cellProgram, order, report);
     }
     const GlFrameCounts counts = state_->resident->counts();
-    stages["draw"] += watch.lap() - stages["upload"];
+    stages["draw"] += watch.lap();  // culling, sorting and set-up too: the GPU does not say when it ends them
     report.bytesUploaded = state_->resident->uploadedLast();
     report.cellsDrawn = counts.drawn;
     if (order_->keys() != nullptr) report.cellsSorted = counts.drawn;
@@ -409,10 +408,10 @@ bool GlEngine::drawResident(const View& view, const CameraFrame& frame, FrameRep
         drawn = drawInOrder(view, frame, way, report);
     } catch (const std::runtime_error& error) {
         if (way == GlDrawing::Raster) throw;
+        report.stageMilliseconds.clear();
+        drawn = drawInOrder(view, frame, GlDrawing::Raster, report);  // throws too where tiles are not to blame
         state_->tiles.reset();  // a variant that the driver refuses, or more pairs than a buffer holds
         path_ = {GlPath::Resident, error.what()};
-        report.stageMilliseconds.clear();
-        drawn = drawInOrder(view, frame, GlDrawing::Raster, report);
     }
     if (path_.path == GlPath::Measured) trial_.took(watch.lap(), report.cellsDrawn);
     report.dataPathReason = path_.path == GlPath::Measured ? trial_.reason() : path_.reason;
@@ -422,6 +421,7 @@ bool GlEngine::drawResident(const View& view, const CameraFrame& frame, FrameRep
 
 Image GlEngine::render(const View& view, FrameReport& report) {
     checkPixelMaps(view);
+    if (view.maps != nullptr) checkScales(*view.maps);
     Stopwatch whole, watch;
     auto& stages = report.stageMilliseconds;
     const CameraFrame frame = sampledFrame(view.camera, edgeOnPlanes_);

@@ -109,11 +109,6 @@ GlResidentCells::GlResidentCells(const GlFunctions& gl, const mesh::ScalarMesh& 
     static_assert(sizeof(glm::dvec3) == 3 * sizeof(double) && sizeof(glm::dvec4) == 4 * sizeof(double));
     for (auto& buffer : buffers_)
         buffer = std::make_unique<GlCellBuffer>(gl, layout, chunkCells_, indices_, GL_DYNAMIC_COPY);
-    uploadedOnce_ = pointCount_ * sizeof(glm::dvec3) + mesh.scalars.size() * sizeof(double) +
-                    mesh.cells.size() * sizeof(mesh::Tetrahedron) + visible.size() * sizeof(mesh::CellIndex) +
-                    (layout.gradient ? mesh.cells.size() * sizeof(CellGradient) : 0) +
-                    (keys != nullptr ? keys->planes().size() * sizeof(glm::dvec4) : 0) +
-                    (checks_ ? adjacency->neighbours.size() * 4 * sizeof(mesh::CellIndex) : 0);
 }
 
 const GlResidentCells::Kernels& GlResidentCells::kernels(bool orthographic) {

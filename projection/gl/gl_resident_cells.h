@@ -51,7 +51,6 @@ public:
     /// Of the last frame drawn; waits for it.
     GlFrameCounts counts() const;
 
-    std::uint64_t uploadedOnce() const { return uploadedOnce_; }  ///< bytes
     std::uint64_t uploadedLast() const { return uploadedLast_; }  ///< bytes of the last frame
 
 private:
@@ -74,7 +73,7 @@ private:
     GlCellLayout layout_;
     bool cellData_, checks_;
     std::size_t pointCount_, visibleCount_, groups_, chunkCells_, chunkCount_;
-    std::uint64_t uploadedOnce_ = 0, uploadedLast_ = 0;
+    std::uint64_t uploadedLast_ = 0;
     GlStorage positions_, scalars_, cells_, visible_, gradients_, keyPlanes_, neighbours_;
     GlStorage cameraPoints_, flags_, groupCounts_, groupRanges_, keyed_, scratch_, places_, plan_;
     std::optional<GlStorage> order_;  // of cells, where a frame brings one

@@ -47,7 +47,7 @@ GlTiles::GlTiles(const GlFunctions& gl, GlCellLayout layout, std::size_t chunkCe
       emit_(gl, tileDefines(true), {"projection/gl/gl_tile_outline.glsl", "projection/gl/gl_tile_bin.comp"}),
       planning_(gl, {}, {"projection/gl/gl_tile_plan.comp"}),
       ranging_(gl, {}, {"projection/gl/gl_tile_ranges.comp"}),
-      sort_(gl, capacity),
+      sort_(gl, 0),
       cellPairs_(gl, chunkCells * sizeof(GLuint), nullptr, GL_DYNAMIC_COPY),
       groupPairs_(gl, (groups_ + 1) * sizeof(GLuint), nullptr, GL_DYNAMIC_COPY),
       demand_(gl, sizeof(Demand), nullptr, GL_DYNAMIC_READ),
@@ -58,13 +58,14 @@ GlTiles::GlTiles(const GlFunctions& gl, GlCellLayout layout, std::size_t chunkCe
 void GlTiles::makeRoom(std::size_t pairs) {
     pairs_.reset();
     scratch_.reset();
+    sort_.reserve(pairs);
     pairs_.emplace(gl_, pairs * 2 * sizeof(GLuint), nullptr, GL_DYNAMIC_COPY);
     scratch_.emplace(gl_, pairs * 2 * sizeof(GLuint), nullptr, GL_DYNAMIC_COPY);
-    sort_.reserve(pairs);
     capacity_ = pairs;
 }
 
 void GlTiles::begin(const CameraFrame& frame, GLuint texture) {
+    if (!scratch_) makeRoom(capacity_);  // the last frame asked for more than there is
     if (frame.width != width_ || frame.height != height_) {
         width_ = frame.width;
         height_ = frame.height;
@@ -102,7 +103,7 @@ void GlTiles::draw(GLuint plan, GLuint vertices, std::size_t chunkBegin, const s
     bin(emit_, plan, vertices, chunkBegin, pairs_->name());
 
     gl_.BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, plan_.name());
-    const auto tileBits = static_cast<unsigned>(std::bit_width(static_cast<unsigned>(columns_ * rows_)));
+    const auto tileBits = static_cast<unsigned>(std::bit_width(static_cast<unsigned>(columns_ * rows_ - 1)));
     sort_.sortBits(plan_.name(), offsetof(PairPlan, sortGroups), pairs_->name(), scratch_->name(), tileBits);
     clear(gl_, *ranges_);
     ranging_.use();

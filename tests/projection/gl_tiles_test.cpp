@@ -14,7 +14,6 @@
 #include <projection/gl/gl_frame_target.h>
 #include <projection/gl/gl_path.h>
 #include <projection/gl/gl_resident_cells.h>
-#include <projection/light/light_frame.h>
 #include <projection/opaque/opaque_layer.h>
 #include <tests/support/engine_pictures.h>
 #include <tests/support/gl_path_pictures.h>
@@ -40,19 +39,11 @@ TEST_P(TileModes, LikeStream) {
     expectSame(scene, views(), "tiles");
 }
 
-INSTANTIATE_TEST_SUITE_P(All, TileModes,
-                         testing::Values(Mode::Standard, Mode::ScaleInvariant, Mode::Mip, Mode::Minimum, Mode::Average,
-                                         Mode::Additive, Mode::Emission, Mode::Absorption, Mode::FirstHit, Mode::Depth,
-                                         Mode::Contribution, Mode::DataContribution));
+INSTANTIATE_TEST_SUITE_P(All, TileModes, testing::ValuesIn(pathModes));
 
 TEST(Tiles, SilhouettesAndLights) {
-    Scene scene = sceneOf(jitteredBoxMesh(7, 0.2, 5, waves), smoothFunction(0.1, 0.9));
-    scene.settings.shading.silhouette = true;
-    scene.settings.shading.lights = {{glm::dvec3(0, 0, 1)}, {glm::dvec3(0.6, 0.8, 0)}};
-    expectSame(scene, {views()[0]}, "tiles", "auto");
-    scene.settings.shading.silhouette = false;
-    scene.settings.shading.normals = shading::Normals::Smooth;  // what vertices carry
-    expectSame(withVertexLight(scene), views(), "tiles", "auto");
+    expectSame(litScene(7, false), {views()[0]}, "tiles", "auto");
+    expectSame(litScene(7, true), views(), "tiles", "auto");
 }
 
 class TileIntegrals : public testing::TestWithParam<Mode> {};
@@ -90,6 +81,20 @@ TEST(Tiles, ASliceWithinTheVolume) {
     const Image reference = referenceThatShows(scene, views()[0]);
     for (const char* context : {"egl", "osmesa"})
         expectLike(reference, scene, views()[0], tileOptions(context), {5e-5, 1e-3}, "slice");
+}
+
+// What is wrong with a view is no fault of the path.
+TEST(Tiles, AViewThatIsRefusedLeavesThePath) {
+    const Scene scene = sceneOf(boxMesh(4, waves), smoothFunction(0.1, 0.9));
+    const auto engine = engineOf(scene, "tiles");
+    const Camera camera = views()[0].camera;
+    PixelMaps tooStrong;
+    tooStrong.extinctionScale.assign(static_cast<std::size_t>(camera.width * camera.height), 2.0f);
+    EXPECT_THROW(pictureOf(*engine, {camera, &tooStrong}), std::runtime_error);
+    Camera tooLarge = camera;
+    tooLarge.width = 1 << 20;
+    EXPECT_THROW(pictureOf(*engine, tooLarge), std::runtime_error);
+    EXPECT_EQ(pictureOf(*engine, camera).report.dataPath, "tiles");
 }
 
 TEST(Tiles, OpaqueTilesEndEarly) {
@@ -180,7 +185,6 @@ TEST_P(TileParts, RoomGrowsByWhatWasMissing) {
     GlTiles tiles(*gl, {}, chunk, 8);
     const CameraFrame frame = cameraFrame(views()[0].camera);
     GlFrameTarget target(*gl);
-    std::vector<std::uint64_t> entries;
     for (int run = 0; run < 3; ++run) {
         target.begin(frame.width, frame.height, 0.0f);
         cells.drawTiles(frame, nullptr, 0.01, tiles, target.texture(), [] {});

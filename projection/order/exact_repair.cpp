@@ -3,10 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iterator>
 #include <utility>
-
-#include <tbb/parallel_sort.h>
 
 #include <projection/cells/cell_setup.h>
 #include <projection/order/float_limits.h>
@@ -56,26 +53,24 @@ private:
     /// cell that a ray meets first shows, those where rounding would say which it is.
     void doubtMore(const Camera& camera, FrameReport& report) const {
         const CameraFrame frame = cameraFrame(camera);
-        std::vector<std::uint32_t> more;
-        if (dense_ && report.samplesBeside) more = tiedPixels(scene_, frame);
+        std::vector<std::uint32_t> ties, edges;
+        if (dense_ && report.samplesBeside) ties = tiedPixels(scene_, frame);
         if (scene_.settings.mode == Mode::FirstHit && engine_->name() != "reference")
-            append(more, tiedEdgePixels(scene_, frame));
-        if (!beyondFloat_.empty()) append(more, pixelsBeyondFloat(frame));
-        if (more.empty()) return;
-        tbb::parallel_sort(more.begin(), more.end());
-        std::vector<std::uint32_t> all;
-        all.reserve(report.doubtfulPixels.size() + more.size());
-        std::merge(report.doubtfulPixels.begin(), report.doubtfulPixels.end(), more.begin(), more.end(),
-                   std::back_inserter(all));
-        all.erase(std::unique(all.begin(), all.end()), all.end());
-        report.doubtfulPixels = std::move(all);
+            edges = tiedEdgePixels(scene_, frame);
+        if (ties.empty() && edges.empty() && beyondFloat_.empty()) return;
+        std::vector<bool> doubtful(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
+        for (const auto* pixels : {&report.doubtfulPixels, &ties, &edges})
+            for (const std::uint32_t pixel : *pixels) doubtful[pixel] = true;
+        markBeyondFloat(frame, doubtful);
+        report.doubtfulPixels.clear();
+        for (std::uint32_t pixel = 0; pixel < doubtful.size(); ++pixel)
+            if (doubtful[pixel]) report.doubtfulPixels.push_back(pixel);
     }
 
-    /// Ascending.
-    std::vector<std::uint32_t> pixelsBeyondFloat(const CameraFrame& frame) const {
+    void markBeyondFloat(const CameraFrame& frame, std::vector<bool>& doubtful) const {
+        if (beyondFloat_.empty()) return;
         const CellProjector projector(*scene_.mesh, sceneUnits(*scene_.mesh), frame);
         const auto width = static_cast<std::size_t>(frame.width);
-        std::vector<bool> doubtful(width * static_cast<std::size_t>(frame.height));
         for (mesh::CellIndex cell : beyondFloat_) {
             PixelRect rect;
             if (projector.bounds(cell, rect) == SkipReason::OutsideView) continue;
@@ -85,14 +80,6 @@ private:
                 for (int x = x0; x < x1; ++x)
                     doubtful[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = true;
         }
-        std::vector<std::uint32_t> pixels;
-        for (std::uint32_t pixel = 0; pixel < doubtful.size(); ++pixel)
-            if (doubtful[pixel]) pixels.push_back(pixel);
-        return pixels;
-    }
-
-    static void append(std::vector<std::uint32_t>& pixels, const std::vector<std::uint32_t>& more) {
-        pixels.insert(pixels.end(), more.begin(), more.end());
     }
 
     Scene scene_;

@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 
 #include <projection/cells/point_pixel.h>
+#include <projection/order/wanted_pixels.h>
 
 namespace tetralux::projection {
 
@@ -41,17 +42,10 @@ public:
         : pixels_(pixels),
           width_(static_cast<std::uint32_t>(frame.width)),
           height_(frame.height),
-          columns_(static_cast<std::size_t>(frame.width) + 1),
-          sums_(columns_ * (static_cast<std::size_t>(frame.height) + 1)),
+          wanted_(pixels, frame.width, frame.height),
           rowStart_(static_cast<std::size_t>(frame.height) + 1) {
-        for (std::uint32_t pixel : pixels) {
-            ++rowStart_[pixel / width_ + 1];
-            sums_[(pixel / width_ + 1) * columns_ + pixel % width_ + 1] = 1;
-        }
+        for (std::uint32_t pixel : pixels) ++rowStart_[pixel / width_ + 1];
         for (std::size_t y = 1; y < rowStart_.size(); ++y) rowStart_[y] += rowStart_[y - 1];
-        // summed areas (Crow 1984): most cells cover none of the pixels
-        for (std::size_t i = columns_ + 1; i < sums_.size(); ++i)
-            if (i % columns_ != 0) sums_[i] += sums_[i - 1] + sums_[i - columns_] - sums_[i - columns_ - 1];
     }
 
     /// `visit(i)` for each pixel with low ≤ (x, y) ≤ high.
@@ -59,11 +53,7 @@ public:
     void within(const glm::vec2& low, const glm::vec2& high, Visit visit) const {
         const int x0 = first(low.x, static_cast<int>(width_)), y0 = first(low.y, height_);
         const int x1 = end(high.x, static_cast<int>(width_)), y1 = end(high.y, height_);
-        if (x0 >= x1 || y0 >= y1) return;
-        const auto sum = [&](int x, int y) {
-            return sums_[static_cast<std::size_t>(y) * columns_ + static_cast<std::size_t>(x)];
-        };
-        if (sum(x1, y1) - sum(x0, y1) - sum(x1, y0) + sum(x0, y0) == 0) return;
+        if (!wanted_.any(x0, y0, x1, y1)) return;  // as of most cells
         for (int y = y0; y < y1; ++y) {
             const std::uint32_t row = static_cast<std::uint32_t>(y) * width_;
             const auto begin = pixels_.begin() + rowStart_[static_cast<std::size_t>(y)],
@@ -87,8 +77,7 @@ private:
     std::span<const std::uint32_t> pixels_;
     std::uint32_t width_;
     int height_;
-    std::size_t columns_;
-    std::vector<std::uint32_t> sums_;
+    WantedPixels wanted_;
     std::vector<std::ptrdiff_t> rowStart_;
 };
 

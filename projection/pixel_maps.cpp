@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <projection/pixel_maps.h>
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -54,6 +55,11 @@ void checkPixelMaps(const View& view) {
     check("nearestNormal", view.maps->nearestNormal.size());
     check("extinctionScale", view.maps->extinctionScale.size());
     check("behind", view.maps->behind.size());
+    const std::vector<Veil>& veils = view.maps->veils;
+    if (!std::is_sorted(veils.begin(), veils.end()) || (!veils.empty() && veils.back().pixel >= wanted))
+        throw std::runtime_error(fmt::format(
+            "pixel map 'veils': not ascending within an image of {}x{}; sort them by pixel, then by distance",
+            view.camera.width, view.camera.height));
 }
 
 void composeBehind(Image& image, const PixelMaps& maps) {

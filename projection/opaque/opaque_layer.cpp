@@ -13,6 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include <mesh/plane_cut.h>
+#include <projection/cells/point_pixel.h>
 #include <projection/light/arriving_light.h>
 #include <projection/light/corner_normals.h>
 #include <projection/opaque/ray_triangle.h>
@@ -36,10 +37,6 @@ struct PixelBox {
 int clampedPixel(double position, int size) {
     return static_cast<int>(std::clamp(position, 0.0, static_cast<double>(size)));
 }
-
-}  // namespace
-
-namespace {
 
 void checkOpacity(double opacity, Mode mode) {
     if (!(opacity >= 0.0) || !(opacity <= 1.0))
@@ -170,9 +167,7 @@ private:
         for (const auto& part : veils_)
             for (const Veil& veil : part)
                 if (veil.distance < hits_[veil.pixel].distance) maps_.veils.push_back(veil);
-        std::sort(maps_.veils.begin(), maps_.veils.end(), [](const Veil& a, const Veil& b) {
-            return a.pixel != b.pixel ? a.pixel < b.pixel : a.distance < b.distance;
-        });
+        std::sort(maps_.veils.begin(), maps_.veils.end());
     }
 
     struct Hit {
@@ -182,17 +177,16 @@ private:
 
     /// Pixels whose rays can meet the triangle: those around its projection, or all when it reaches behind the eye.
     PixelBox boxOf(const Triangle& triangle) const {
-        const double perPixel = glm::length(frame_.perPixelRight);
+        const PointPixel pixelOf(frame_);
         PixelBox all{0, 0, frame_.width, frame_.height};
         glm::dvec2 low(infinite), high(-infinite);
         double nearest = infinite, farthest = -infinite;
         for (const mesh::PointIndex corner : triangle.corners) {
             const glm::dvec3 p = layer_.positions_[corner] - frame_.eye;
-            const double depth = glm::dot(p, frame_.forward);
-            const double scale = 1.0 / (perPixel * (frame_.orthographic ? 1.0 : depth));
-            const glm::dvec2 at(glm::dot(p, frame_.right) * scale, -glm::dot(p, frame_.up) * scale);
-            low = glm::min(low, at + frame_.centre);
-            high = glm::max(high, at + frame_.centre);
+            const double depth = pixelOf.depth(p);
+            const glm::dvec2 at = pixelOf(p, depth);
+            low = glm::min(low, at);
+            high = glm::max(high, at);
             nearest = std::min(nearest, depth);
             farthest = std::max(farthest, depth);
         }

@@ -80,9 +80,9 @@ public:
         for (std::size_t part = 0; part <= veils.most(); ++part) {
             const PixelMaps maps = partOf(*view.maps, veils, pixels, part);
             FrameReport partReport;
-            const Image drawn = engine_->render({view.camera, &maps}, part == 0 ? report : partReport);
+            Image drawn = engine_->render({view.camera, &maps}, part == 0 ? report : partReport);
             if (part == 0) {
-                image = drawn;
+                image = std::move(drawn);
                 continue;
             }
             add(partReport, report);

@@ -160,6 +160,18 @@ TEST(VeiledVolume, ModesThatComposeNoPartsAreRefused) {
     EXPECT_NO_THROW(withSlices(litBall(Mode::Mip), {{{0.5, 0.5, 0.5}, {0, 0, 1}, 1.0}}));
 }
 
+TEST(VeiledVolume, VeilsInNoOrderOrOutsideAreRefused) {
+    const auto check = [](std::vector<Veil> veils) {
+        PixelMaps maps;
+        maps.veils = std::move(veils);
+        checkPixelMaps({cameraAt({2, 2, 2}, glm::dvec3(0.5), 4, 3), &maps});
+    };
+    EXPECT_NO_THROW(check({{3, 1.0, {}}, {3, 2.0, {}}, {11, 0.5, {}}}));
+    EXPECT_THROW(check({{3, 2.0, {}}, {3, 1.0, {}}}), std::runtime_error);
+    EXPECT_THROW(check({{4, 1.0, {}}, {3, 2.0, {}}}), std::runtime_error);
+    EXPECT_THROW(check({{12, 1.0, {}}}), std::runtime_error);
+}
+
 TEST(DepthColor, IsTheIntegralOverTheDistance) {
     const double tau = 2.0;
     const glm::dvec3 near{0.8, 0.5, 0.25};

@@ -11,28 +11,13 @@
 
 namespace tetralux::mesh {
 
-/// Items in a tree of bounding boxes: those near a point, in a box, along a line. What the items are and how the tree
+/// Items in a tree of bounding boxes: those in a box, along a line. What the items are and how the tree
 /// is built is the derived class's matter; no node may be deeper than 64. Visits come in an order that depends on the
 /// items alone, and end with one that returns false (if it returns anything).
 class BoxTree {
 public:
-    /// Calls `visit(item)` for every item whose bounding box comes within `reach` of `x`, and for some others of the
-    /// same leaves.
-    template <class Visit>
-    void forEachNear(const glm::dvec3& x, double reach, const Visit& visit) const {
-        walk(
-            [&](const Node& node) {
-                double square = 0;
-                for (int axis = 0; axis < 3; ++axis) {
-                    const double beside = std::max({node.low[axis] - x[axis], x[axis] - node.high[axis], 0.0});
-                    square += beside * beside;
-                }
-                return square <= reach * reach;
-            },
-            visit);
-    }
-
-    /// The same for bounding boxes that touch the box from `low` to `high`.
+    /// Calls `visit(item)` for every item whose bounding box touches the box from `low` to `high`, and for some others
+    /// of the same leaves.
     template <class Visit>
     void forEachInBox(const glm::dvec3& low, const glm::dvec3& high, const Visit& visit) const {
         walk(

@@ -71,7 +71,7 @@ std::uint64_t memoryFor(const std::string& source) {
     const std::uint64_t size = std::filesystem::file_size(source, failed);
     const bool mayNameOthers =
         hasExtension(source, {".pvtu", ".pvti", ".pvtr", ".pvts", ".pvtp", ".vtm", ".vtpd", ".vtpc", ".vth", ".vthb",
-                              ".pvd", ".case", ".encas", ".foam", ".nhdr", ".mhd", ".cgns", ".cas"});
+                              ".pvd", ".case", ".encas", ".foam", ".mhd", ".cgns", ".cas"});
     return failed || mayNameOthers || size > machine / perByte ? machine : std::min(machine, base + perByte * size);
 }
 

@@ -114,7 +114,8 @@ public:
         if (hidden(line)) return 0;
         double depth = 0;
         tree_.forEachAlong(line.origin, line.direction, line.end, [&](mesh::CellIndex cell) {
-            if (depth < darkDepth) depth += depthOf(partIn(mesh_, cell, line));
+            depth += depthOf(partIn(mesh_, cell, line));
+            return depth < darkDepth;
         });
         return std::exp(-depth);
     }
@@ -123,7 +124,8 @@ private:
     bool hidden(const Line& line) const {
         bool hit = false;
         surfaces_.forEachAlong(line.origin, line.direction, line.end, [&](std::uint32_t triangle) {
-            hit = hit || meets(line, triangles_[triangle], beside_);
+            hit = meets(line, triangles_[triangle], beside_);
+            return !hit;
         });
         return hit;
     }

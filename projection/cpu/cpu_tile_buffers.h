@@ -25,9 +25,16 @@ inline std::size_t placeInTile(int x, int y) {
 }
 
 /// Accumulators of a tile. What they hold depends on the kind:
-///   Composite, Shaded: premultiplied colour r g b, transmittance t, nearness `last` at which the last segment ended,
-///   and its scalar FirstHit: colour of the hit, t = 1 until then Absorption: depth in t      Mip: largest scalar in t
-///   Average: Σ scalar·length in r, Σ length in t
+///
+/// - Composite, Shaded: premultiplied colour r g b, transmittance t, nearness `last` at which the last segment ended,
+///   and its scalar
+/// - FirstHit: colour of the hit, t = 1 until then
+/// - Absorption: depth in t
+/// - Mip, Minimum: largest or smallest scalar in t
+/// - Average: Σ scalar·length in r, Σ length in t
+/// - Additive: colour r g b and depth t, summed
+/// - Depth: distance in r, t = 1 until then
+/// - Contribution: segments in r, depth in t
 struct TileBuffers {
     alignas(64) float r[tilePixels], g[tilePixels], b[tilePixels], t[tilePixels], last[tilePixels],
         lastScalar[tilePixels], rayLength[tilePixels],

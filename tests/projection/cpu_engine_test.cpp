@@ -4,8 +4,10 @@
 // switched off.
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <tuple>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 #include <glm/common.hpp>
@@ -218,6 +220,16 @@ TEST(CpuEngine, FunctionsOfManyNodes) {
             }
 }
 
+/// The kernels for common lights and silhouettes against the general one.
+void expectLikeGeneral(const Scene& scene, const Camera& camera, test::EngineThreshold threshold,
+                       const std::string& what) {
+    const ImageDifference difference =
+        compareImages(cpuImage(scene, camera), cpuImage(scene, camera, {.quickLooks = false}));
+    EXPECT_LE(difference.rmse, threshold.rmse) << what;
+    EXPECT_LE(difference.max, threshold.max) << what;
+    EXPECT_GT(difference.max, 0.0) << what << ": the same kernel drew both";
+}
+
 TEST(CpuEngine, QuickLooksAreTheGeneralOnes) {
     for (int what = 0; what < 64; ++what) {
         Scene scene = fieldScene("bucky", (what & 1) != 0 ? "peaks" : "smooth",
@@ -232,11 +244,7 @@ TEST(CpuEngine, QuickLooksAreTheGeneralOnes) {
         }
         Camera camera = wholeView(*scene.mesh);
         if ((what & 32) != 0) camera.orthographicHeight = 1.6 * scene.mesh->bounds.diagonal();
-        const ImageDifference difference =
-            compareImages(cpuImage(scene, camera), cpuImage(scene, camera, {.quickLooks = false}));
-        EXPECT_LE(difference.rmse, lookThreshold.rmse) << what;
-        EXPECT_LE(difference.max, lookThreshold.max) << what;
-        EXPECT_GT(difference.max, 0.0) << what << ": the same kernel drew both";
+        expectLikeGeneral(scene, camera, lookThreshold, std::to_string(what));
     }
 }
 
@@ -276,11 +284,7 @@ TEST(CpuEngine, LampsAreTheGeneralLight) {
         shading.exponent = (what & 4) != 0 ? 12.5 : 32.0;
         Camera camera = wholeView(*scene.mesh);
         if ((what & 8) != 0) camera.orthographicHeight = 1.6 * scene.mesh->bounds.diagonal();
-        const ImageDifference difference =
-            compareImages(cpuImage(scene, camera), cpuImage(scene, camera, {.quickLooks = false}));
-        EXPECT_LE(difference.rmse, lookThreshold.rmse) << what;
-        EXPECT_LE(difference.max, lookThreshold.max) << what;
-        EXPECT_GT(difference.max, 0.0) << what << ": the same kernel drew both";
+        expectLikeGeneral(scene, camera, lookThreshold, std::to_string(what));
     }
 }
 
@@ -301,10 +305,7 @@ TEST(CpuEngine, SilhouettesOfIsosurfacesInWideCells) {
                 camera.fovDegrees = fov;
                 // not the reference: whether float meets a surface in this cell or its neighbour, a thousandth of its
                 // slope apart, decides single pixels
-                const ImageDifference difference =
-                    compareImages(cpuImage(scene, camera), cpuImage(scene, camera, {.quickLooks = false}));
-                EXPECT_LE(difference.max, 4e-6) << n << ' ' << opacity << ' ' << fov;
-                EXPECT_GT(difference.max, 0.0) << n << ": the same kernel drew both";
+                expectLikeGeneral(scene, camera, {4e-6, 4e-6}, fmt::format("{} {} {}", n, opacity, fov));
             }
         }
 }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <utility>
 
@@ -14,12 +15,16 @@
 
 namespace tetralux::test {
 
+inline double diagonalWave(const glm::dvec3& p) {
+    return 0.5 + 0.5 * std::sin(7.0 * p.x + 5.0 * p.y - 6.0 * p.z);
+}
+
 /// A mesh cell by cell; scalars are a wave over the places.
 class CellHeap {
 public:
     mesh::PointIndex point(const glm::dvec3& p) {
         mesh_.positions.push_back(p);
-        mesh_.scalars.push_back(0.5 + 0.5 * std::sin(7.0 * p.x + 5.0 * p.y - 6.0 * p.z));
+        mesh_.scalars.push_back(diagonalWave(p));
         return static_cast<mesh::PointIndex>(mesh_.positions.size() - 1);
     }
     /// Turned the right way round; left out when it has no volume.
@@ -68,7 +73,7 @@ inline mesh::ScalarMesh interlockedRings() {
     for (int ring = 0; ring < 4; ++ring) {
         const glm::dvec3 centre(0.14 + 0.24 * ring, 0.5, 0.5);
         heap.bar(14, true, [&](int i, int corner) {
-            const double angle = 2 * 3.14159265358979 * i / 14;
+            const double angle = 2 * std::numbers::pi * i / 14;
             const glm::dvec2 c = 0.03 * squareCorner(corner);
             const double r = 0.17 + c.x;
             return centre + (ring % 2 == 0 ? glm::dvec3(r * std::cos(angle), r * std::sin(angle), c.y)
@@ -94,7 +99,7 @@ inline mesh::ScalarMesh helices() {
 /// Needles over one another, each over the next, in groups of `sides`.
 inline void addCycle(CellHeap& heap, const glm::dvec3& centre, double size, int sides) {
     for (int i = 0; i < sides; ++i) {
-        const double turn = 2 * 3.14159265358979 * i / sides;
+        const double turn = 2 * std::numbers::pi * i / sides;
         const glm::dvec3 along = size * glm::dvec3(std::cos(turn), std::sin(turn), 0.35),
                          out = 0.45 * size * glm::dvec3(std::sin(turn), -std::cos(turn), 0),
                          across = 0.13 * size * glm::dvec3(-std::sin(turn), std::cos(turn), 0), up(0, 0, 0.07 * size);
@@ -134,11 +139,10 @@ inline mesh::ScalarMesh twistedPrisms(int n) {
 
 /// Every other cube of a grid: they share corners and edges, but no face.
 inline mesh::ScalarMesh chessCubes(int n) {
-    return carved(boxMesh(n + 1, [](const glm::dvec3& p) { return 0.5 + 0.5 * std::sin(7 * p.x + 5 * p.y - 6 * p.z); }),
-                  [n](const glm::dvec3& p) {
-                      const glm::dvec3 cube = p * static_cast<double>(n);
-                      return (static_cast<int>(cube.x) + static_cast<int>(cube.y) + static_cast<int>(cube.z)) % 2 == 0;
-                  });
+    return carved(boxMesh(n + 1, diagonalWave), [n](const glm::dvec3& p) {
+        const glm::dvec3 cube = p * static_cast<double>(n);
+        return (static_cast<int>(cube.x) + static_cast<int>(cube.y) + static_cast<int>(cube.z)) % 2 == 0;
+    });
 }
 
 /// Layers of 1, 2, 4 and 8 cubes across, one upon the other: faces of one side against four of the other.
@@ -166,8 +170,7 @@ inline mesh::ScalarMesh hangingLayers() {
 
 /// Every third cell twice, the copy with points of its own or with the same.
 inline mesh::ScalarMesh doubledCells(bool ownPoints) {
-    mesh::ScalarMesh m = jitteredBoxMesh(
-        5, 0.2, 7, [](const glm::dvec3& p) { return 0.5 + 0.5 * std::sin(7 * p.x + 5 * p.y - 6 * p.z); });
+    mesh::ScalarMesh m = jitteredBoxMesh(5, 0.2, 7, diagonalWave);
     const std::size_t cells = m.cells.size();
     for (std::size_t i = 0; i < cells; i += 3) {
         mesh::Tetrahedron copy = m.cells[i];

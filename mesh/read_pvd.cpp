@@ -26,6 +26,17 @@ bool acceptsPvd(const std::string& source) {
     return hasExtension(source, {".pvd", ".pvtu"});
 }
 
+/// What a file that names others is called, and the elements that do.
+struct Listing {
+    const char *what, *element, *entry, *attribute;
+};
+constexpr Listing series{"ParaView collection", "Collection", "DataSet", "file"};
+constexpr Listing pieces{"mesh in pieces", "PUnstructuredGrid", "Piece", "Source"};
+
+bool isInPieces(const std::string& source) {
+    return hasExtension(source, {".pvtu"});
+}
+
 struct Part {
     double time;
     std::string file;
@@ -34,19 +45,17 @@ struct Part {
 /// The entries of a ParaView collection, every file with its time, or the pieces of a mesh in parallel.
 std::vector<Part> readCollection(const std::string& source) {
     captureVtkMessages();
-    const bool pieces = hasExtension(source, {".pvtu"});
+    const Listing& listing = isInPieces(source) ? pieces : series;
     const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(source.c_str()));
-    vtkXMLDataElement* collection =
-        root != nullptr ? root->FindNestedElementWithName(pieces ? "PUnstructuredGrid" : "Collection") : nullptr;
+    vtkXMLDataElement* collection = root != nullptr ? root->FindNestedElementWithName(listing.element) : nullptr;
     if (collection == nullptr) {
-        throw std::runtime_error(fmt::format("is no {} (<VTKFile type=\"{}\">); write the file again",
-                                             pieces ? "mesh in pieces" : "ParaView collection",
-                                             pieces ? "PUnstructuredGrid" : "Collection"));
+        throw std::runtime_error(
+            fmt::format("is no {} (<VTKFile type=\"{}\">); write the file again", listing.what, listing.element));
     }
     std::vector<Part> parts;
     for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
         vtkXMLDataElement* entry = collection->GetNestedElement(i);
-        const char* file = entry->GetAttribute(pieces ? "Source" : "file");
+        const char* file = entry->GetAttribute(listing.attribute);
         double time = 0.0;
         entry->GetScalarAttribute("timestep", time);
         if (file != nullptr && std::isfinite(time)) {
@@ -54,13 +63,12 @@ std::vector<Part> readCollection(const std::string& source) {
         }
     }
     if (parts.empty()) {
-        throw std::runtime_error(fmt::format("names no file; add a {} element for each", pieces ? "Piece" : "DataSet"));
+        throw std::runtime_error(fmt::format("names no file; add a {} element for each", listing.entry));
     }
     return parts;
 }
 
 CellSoup readCollectionAt(const std::string& source, std::optional<double> time) {
-    const bool isSeries = !hasExtension(source, {".pvtu"});
     const std::vector<Part> parts = readCollection(source);
     std::set<double> times;
     for (const Part& part : parts) {
@@ -77,7 +85,7 @@ CellSoup readCollectionAt(const std::string& source, std::optional<double> time)
                 throw std::runtime_error(
                     fmt::format("names {}, which is not there; put it there, or name the file that is", part.file));
             }
-            if (isSeries && hasExtension(part.file, {".pvtu"})) {
+            if (!isInPieces(source) && isInPieces(part.file)) {
                 appendSoup(soup, readCollectionAt(file.string(), std::nullopt));
                 continue;
             }
@@ -86,7 +94,7 @@ CellSoup readCollectionAt(const std::string& source, std::optional<double> time)
             appendSoup(soup, soupFromReader(*reader, std::nullopt));
         }
     }
-    if (isSeries) {
+    if (!isInPieces(source)) {
         soup.times = steps;
     }
     return soup;

@@ -15,6 +15,7 @@
 
 #include <apps/bench_scene.h>
 #include <apps/run_program.h>
+#include <projection/transfer_support.h>
 
 namespace tetralux::apps {
 
@@ -51,12 +52,8 @@ void writeMesh(const mesh::ScalarMesh& mesh, const fs::path& path) {
 double meanSlope(const mesh::ScalarMesh& mesh, double value) {
     double weighted = 0.0, volume = 0.0;
     for (mesh::CellIndex cell = 0; cell < mesh.cells.size(); ++cell) {
-        double low = mesh.scalarAt(cell, 0), high = low;
-        for (int k = 1; k < 4; ++k) {
-            low = std::min(low, mesh.scalarAt(cell, k));
-            high = std::max(high, mesh.scalarAt(cell, k));
-        }
-        if (!(low < value && value <= high)) continue;
+        const glm::dvec2 scalars = projection::scalarRange(mesh, cell);
+        if (!(scalars.x < value && value <= scalars.y)) continue;
         const auto& [a, b, c, d] = mesh.cells[cell];
         const double size =
             mesh::sixVolumes(mesh.positions[a], mesh.positions[b], mesh.positions[c], mesh.positions[d]);

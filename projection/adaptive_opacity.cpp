@@ -8,6 +8,7 @@
 
 #include <projection/amount_map.h>
 #include <projection/cells/cell_setup.h>
+#include <projection/transfer_support.h>
 #include <projection/wrapped_engine.h>
 
 namespace tetralux::projection {
@@ -38,12 +39,8 @@ double cellSize(const mesh::ScalarMesh& mesh, preint::Integral integral) {
             for (std::size_t k = 0; k < 4; ++k) p[k] = mesh.positions[mesh.cells[cell][k]];
             part = std::abs(mesh::sixVolumes(p[0], p[1], p[2], p[3])) / 6.0;
         } else {
-            double low = mesh.scalarAt(cell, 0), high = low;
-            for (int k = 1; k < 4; ++k) {
-                low = std::min(low, mesh.scalarAt(cell, k));
-                high = std::max(high, mesh.scalarAt(cell, k));
-            }
-            part = high - low;
+            const glm::dvec2 scalars = scalarRange(mesh, cell);
+            part = scalars.y - scalars.x;
         }
         sum += part;
         count += part > 0 ? 1 : 0;

@@ -108,11 +108,8 @@ CellVisibility::CellVisibility(const mesh::ScalarMesh& mesh, const preint::Trans
       leastDepth_(anyOpacityCounts(settings) ? 0.0 : leastOpacity) {}
 
 bool CellVisibility::shows(mesh::CellIndex cell) const {
-    double low = mesh_.scalarAt(cell, 0), high = low;
-    for (int k = 1; k < 4; ++k) {
-        low = std::min(low, mesh_.scalarAt(cell, k));
-        high = std::max(high, mesh_.scalarAt(cell, k));
-    }
+    const glm::dvec2 scalars = scalarRange(mesh_, cell);
+    const double low = scalars.x, high = scalars.y;
     if (!rangeShows(exact_.function(), support_, low, high, integral_)) return false;
     const auto& surfaces = exact_.function().isosurfaces;
     if (std::any_of(surfaces.begin(), surfaces.end(), [&](const auto& s) { return low < s.value && s.value <= high; }))

@@ -3,6 +3,7 @@
 /// Which scalars a transfer function shows.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -19,6 +20,16 @@ namespace tetralux::projection {
 /// extinction. A low end at which the extinction jumps up holds itself (the value there is that from above): it is
 /// moved down by 1e-7 of the nodes' range.
 std::vector<glm::dvec2> extinctionSupport(const preint::TransferFunction& function);
+
+/// The least (x) and the largest (y) scalar of a cell.
+inline glm::dvec2 scalarRange(const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {
+    glm::dvec2 range(mesh.scalarAt(cell, 0));
+    for (int k = 1; k < 4; ++k) {
+        range.x = std::min(range.x, mesh.scalarAt(cell, k));
+        range.y = std::max(range.y, mesh.scalarAt(cell, k));
+    }
+    return range;
+}
 
 /// Whether segments with scalars within [low, high] can have opacity.
 bool rangeShows(const preint::TransferFunction& function, const std::vector<glm::dvec2>& support, double low,

@@ -234,10 +234,8 @@ void CpuEngine::findVisibleCells() {
     std::vector<std::uint8_t> shows(mesh_.cells.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, shows.size(), 4096), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            double s[4];
-            for (int k = 0; k < 4; ++k) s[k] = mesh_.scalarAt(static_cast<mesh::CellIndex>(i), k);
-            shows[i] = rangeShows(function, support, std::min({s[0], s[1], s[2], s[3]}),
-                                  std::max({s[0], s[1], s[2], s[3]}), integral);
+            const glm::dvec2 scalars = scalarRange(mesh_, static_cast<mesh::CellIndex>(i));
+            shows[i] = rangeShows(function, support, scalars.x, scalars.y, integral);
         }
     });
     const auto count = static_cast<std::size_t>(std::count(shows.begin(), shows.end(), std::uint8_t{1}));

@@ -9,6 +9,8 @@
 #include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
 
+#include <projection/transfer_support.h>
+
 namespace tetralux::projection {
 
 namespace {
@@ -52,11 +54,8 @@ CellShape shapeOf(const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {
 /// met twice or not at all, since both sides of a face must agree about its scalar.
 bool mayMissScalar(const mesh::ScalarMesh& mesh, mesh::CellIndex cell, const preint::TransferFunction& function,
                    bool everywhere) {
-    double low = mesh.scalarAt(cell, 0), high = low;
-    for (int k = 1; k < 4; ++k) {
-        low = std::min(low, mesh.scalarAt(cell, k));
-        high = std::max(high, mesh.scalarAt(cell, k));
-    }
+    const glm::dvec2 scalars = scalarRange(mesh, cell);
+    const double low = scalars.x, high = scalars.y;
     const bool crossed = std::any_of(
         function.isosurfaces.begin(), function.isosurfaces.end(),
         [&](const auto& surface) { return surface.opacity > 0 && surface.value >= low && surface.value <= high; });
@@ -69,11 +68,8 @@ double depthError(const mesh::ScalarMesh& mesh, mesh::CellIndex cell, const prei
                   preint::Integral integral, double strongest) {
     const CellShape shape = shapeOf(mesh, cell);
     const double longest = shape.longestEdge, altitude = shape.leastAltitude;  // clang 14 captures no bindings
-    double low = mesh.scalarAt(cell, 0), high = low;
-    for (int k = 1; k < 4; ++k) {
-        low = std::min(low, mesh.scalarAt(cell, k));
-        high = std::max(high, mesh.scalarAt(cell, k));
-    }
+    const glm::dvec2 scalars = scalarRange(mesh, cell);
+    const double low = scalars.x, high = scalars.y;
     auto error = [&](double extinction) {
         if (integral == preint::Integral::Standard)
             return extinction * altitude > opaqueDepth ? 0.0 : extinction * longest * planeError * obliqueness;
@@ -113,11 +109,8 @@ Ramp steepestRamp(const preint::TransferFunction& function, double low, double h
 /// where all of the cell is opaque anyway.
 bool mayMissRamp(const mesh::ScalarMesh& mesh, mesh::CellIndex cell, const preint::TransferFunction& function,
                  bool fromTable) {
-    double low = mesh.scalarAt(cell, 0), high = low;
-    for (int k = 1; k < 4; ++k) {
-        low = std::min(low, mesh.scalarAt(cell, k));
-        high = std::max(high, mesh.scalarAt(cell, k));
-    }
+    const glm::dvec2 scalars = scalarRange(mesh, cell);
+    const double low = scalars.x, high = scalars.y;
     const Ramp ramp = steepestRamp(function, low, high);
     const CellShape shape = shapeOf(mesh, cell);
     const double error = ramp.slope * (mesh.scalarMax - mesh.scalarMin) * scalarRounding * shape.longestEdge;

@@ -118,19 +118,16 @@ public:
 
     void add(mesh::CellIndex cell, std::vector<std::uint32_t>& pixels) const {
         const mesh::ScalarMesh& mesh = *scene_.mesh;
-        std::array<double, 4> s;
-        for (std::size_t k = 0; k < 4; ++k) s[k] = mesh.scalarAt(cell, static_cast<int>(k));
-        const auto [low, high] = std::minmax_element(s.begin(), s.end());
+        const glm::dvec2 scalars = scalarRange(mesh, cell);
         for (const preint::Isosurface& surface : scene_.transferFunction.isosurfaces) {
-            if (!(*low < surface.value && surface.value <= *high)) continue;
+            if (!(scalars.x < surface.value && surface.value <= scalars.y)) continue;
             std::array<glm::dvec2, 4> at;
             if (!see(mesh.cells[cell], at)) return;
             for (const auto& face : mesh::faceVertices) {
                 SeenFace seen;
                 for (std::size_t i = 0; i < 3; ++i) {
-                    const auto k = static_cast<std::size_t>(face[i]);
-                    seen.at[i] = at[k];
-                    seen.above[i] = s[k] - surface.value;
+                    seen.at[i] = at[static_cast<std::size_t>(face[i])];
+                    seen.above[i] = mesh.scalarAt(cell, face[i]) - surface.value;
                 }
                 addTies(seen, frame_, pixels);
             }
@@ -139,10 +136,8 @@ public:
 
 private:
     bool shows(mesh::CellIndex cell) const {
-        std::array<double, 4> s;
-        for (std::size_t k = 0; k < 4; ++k) s[k] = scene_.mesh->scalarAt(cell, static_cast<int>(k));
-        const auto [low, high] = std::minmax_element(s.begin(), s.end());
-        return rangeShows(scene_.transferFunction, support_, *low, *high, integral_);
+        const glm::dvec2 scalars = scalarRange(*scene_.mesh, cell);
+        return rangeShows(scene_.transferFunction, support_, scalars.x, scalars.y, integral_);
     }
 
     /// Pixel coordinates of the corners; false where one is not in front of the eye.

@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <utility>
+
+#include <tbb/parallel_sort.h>
 
 #include <projection/cells/cell_setup.h>
 #include <projection/order/float_limits.h>
+#include <projection/order/isosurface_outlines.h>
 #include <projection/order/isosurface_ties.h>
 #include <projection/reference/reference_ray_caster.h>
 #include <projection/wrapped_engine.h>
@@ -25,50 +29,64 @@ public:
         const Mode mode = scene.settings.mode;
         dense_ = mode == Mode::Standard || mode == Mode::ScaleInvariant || mode == Mode::FirstHit ||
                  mode == Mode::Absorption;
-        if (dense_ && engine_->name() != "reference")
-            beyondFloat_ = cellsBeyondFloat(*scene.mesh, scene.transferFunction, integralOf(scene.settings.mode),
-                                            mode == Mode::FirstHit, engine_->name() == "gl");
+        if (!dense_ || engine_->name() == "reference") return;
+        beyondFloat_ = cellsBeyondFloat(*scene.mesh, scene.transferFunction, integralOf(scene.settings.mode),
+                                        mode == Mode::FirstHit, engine_->name() == "gl");
+        if (!scene.transferFunction.isosurfaces.empty()) outlines_.emplace(scene);
     }
 
     Image render(const View& view, FrameReport& report) override {
         Image image = engine_->render(view, report);
-        doubtMore(view.camera, report);
-        if (scene_.settings.order == OrderMethod::Centroid) {  // asked for to see what it costs and what it spoils
-            report.pixelsWrong += report.doubtfulPixels.size();
-            return image;
-        }
-        if (report.doubtfulPixels.empty()) return image;
         const auto start = std::chrono::steady_clock::now();
-        caster_.renderPixels(view, report.doubtfulPixels, image);
+        doubtMore(view.camera, report);
+        if (scene_.settings.order == OrderMethod::Centroid)  // asked for to see what it costs and what it spoils
+            report.pixelsWrong += report.doubtfulPixels.size();
+        else
+            repair(view, report, image);
         const double spent =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-        report.stageMilliseconds["repair"] = spent;
+        if (outlines_ || !report.doubtfulPixels.empty()) report.stageMilliseconds["repair"] = spent;
         report.frameMilliseconds += spent;
-        report.pixelsRepaired += report.doubtfulPixels.size();
         return image;
     }
 
 private:
-    /// Adds the pixels of cells beyond float, those where samples beside the centres may miss outlines and, where the
-    /// cell that a ray meets first shows, those where rounding would say which it is.
+    void repair(const View& view, FrameReport& report, Image& image) const {
+        if (report.doubtfulPixels.empty()) return;
+        caster_.renderPixels(view, report.doubtfulPixels, image);
+        report.pixelsRepaired += report.doubtfulPixels.size();
+    }
+
+    /// Adds the pixels of cells beyond float, those where floats or samples beside the centres may miss outlines and,
+    /// where the cell that a ray meets first shows, those where rounding would say which it is.
     void doubtMore(const Camera& camera, FrameReport& report) const {
         const CameraFrame frame = cameraFrame(camera);
-        std::vector<std::uint32_t> ties, edges;
-        if (dense_ && report.samplesBeside) ties = tiedPixels(scene_, frame);
+        std::vector<std::uint32_t>& pixels = report.doubtfulPixels;
+        const std::size_t known = pixels.size();
+        const auto add = [&](const std::vector<std::uint32_t>& more) {
+            pixels.insert(pixels.end(), more.begin(), more.end());
+        };
+        if (dense_ && report.samplesBeside) add(tiedPixels(scene_, frame));
         if (scene_.settings.mode == Mode::FirstHit && engine_->name() != "reference")
-            edges = tiedEdgePixels(scene_, frame);
-        if (ties.empty() && edges.empty() && beyondFloat_.empty()) return;
+            add(tiedEdgePixels(scene_, frame));
+        if (outlines_) add(outlines_->pixels(frame));
+        if (!beyondFloat_.empty()) add(pixelsBeyondFloat(frame));
+        if (pixels.size() == known) return;
+        tbb::parallel_sort(pixels.begin(), pixels.end());
+        pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
+    }
+
+    /// Marked first: such cells cover the same pixels many times.
+    std::vector<std::uint32_t> pixelsBeyondFloat(const CameraFrame& frame) const {
         std::vector<bool> doubtful(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
-        for (const auto* pixels : {&report.doubtfulPixels, &ties, &edges})
-            for (const std::uint32_t pixel : *pixels) doubtful[pixel] = true;
         markBeyondFloat(frame, doubtful);
-        report.doubtfulPixels.clear();
+        std::vector<std::uint32_t> pixels;
         for (std::uint32_t pixel = 0; pixel < doubtful.size(); ++pixel)
-            if (doubtful[pixel]) report.doubtfulPixels.push_back(pixel);
+            if (doubtful[pixel]) pixels.push_back(pixel);
+        return pixels;
     }
 
     void markBeyondFloat(const CameraFrame& frame, std::vector<bool>& doubtful) const {
-        if (beyondFloat_.empty()) return;
         const CellProjector projector(*scene_.mesh, sceneUnits(*scene_.mesh), frame);
         const auto width = static_cast<std::size_t>(frame.width);
         for (mesh::CellIndex cell : beyondFloat_) {
@@ -85,6 +103,7 @@ private:
     Scene scene_;
     bool dense_ = false;  // integrates opacity: a missed isosurface, or depth that float does not hold, shows
     std::vector<mesh::CellIndex> beyondFloat_;
+    std::optional<IsosurfaceOutlines> outlines_;
     ReferenceRayCaster caster_;
 };
 

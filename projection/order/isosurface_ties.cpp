@@ -13,6 +13,7 @@
 
 #include <projection/cells/edge_on_planes.h>
 #include <projection/cells/point_pixel.h>
+#include <projection/order/near_line.h>
 #include <projection/transfer_support.h>
 
 namespace tetralux::projection {
@@ -31,32 +32,7 @@ constexpr double tieDistance = 2.0 * EdgeOnPlanes::widely.x;
 /// The same for lines that are met exactly, as those of symmetric scenes are: by chance hardly any is.
 constexpr double exactDistance = 1e-7;
 
-/// Distances from a line to the centres of pixels that are asked for.
-struct Nearness {
-    double least, most;
-};
 constexpr Nearness near{0.0, tieDistance}, exact{0.0, exactDistance}, nearNotExact{exactDistance, tieDistance};
-
-/// Pixels whose centre the line from `a` to `b` passes at such a distance.
-void addNearLine(glm::dvec2 a, glm::dvec2 b, Nearness wanted, const CameraFrame& frame,
-                 std::vector<std::uint32_t>& pixels) {
-    const int steep = std::abs(b.y - a.y) >= std::abs(b.x - a.x) ? 1 : 0, other = 1 - steep;
-    const std::array size{frame.width, frame.height};
-    if (a[steep] > b[steep]) std::swap(a, b);
-    const double first = std::max(std::ceil(a[steep] - wanted.most), 0.0),
-                 last = std::min(std::floor(b[steep] + wanted.most), size[static_cast<std::size_t>(steep)] - 1.0);
-    for (double row = first; row <= last; ++row) {
-        const double length = b[steep] - a[steep];
-        const double share = length > 0 ? std::clamp((row - a[steep]) / length, 0.0, 1.0) : 0.0;
-        const double place = glm::mix(a[other], b[other], share), nearest = std::round(place);
-        const double distance = std::abs(place - nearest);
-        if (!(distance >= wanted.least && distance < wanted.most)) continue;
-        if (nearest < 0 || nearest >= size[static_cast<std::size_t>(other)]) continue;
-        const double x = steep == 1 ? nearest : row, y = steep == 1 ? row : nearest;
-        pixels.push_back(static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame.width) +
-                         static_cast<std::uint32_t>(x));
-    }
-}
 
 using Corners = std::array<glm::dvec2, 3>;
 

@@ -3,11 +3,13 @@
 // every pixel, whatever rounding says. The pictures are known.
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <projection/reference/reference_cut.h>
 #include <tests/stress/engine_cases.h>
 
 namespace tetralux::projection {
@@ -148,6 +150,47 @@ TEST(StressTies, TheFirstHitIsNoCellThatTheRayOnlyTouches) {
                 }
             EXPECT_GT(onEdges, 10) << "no ray runs between cells: nothing was tested";
         }
+}
+
+/// Two cells that share a face, from random points; scalars of 0 … 1.
+Scene twoCells(std::mt19937& random) {
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    const auto at = [&](double x, double y, double z) {
+        return glm::dvec3(x, y, z) + 0.3 * glm::dvec3(share(random), share(random), share(random));
+    };
+    mesh::ScalarMesh m;
+    m.positions = {at(0, 0, -1), at(-1, -1, 0), at(1, -1, 0), at(0, 1, 0), at(0, 0, 1)};
+    m.cells = {{0, 1, 2, 3}, {4, 1, 3, 2}};
+    for (std::size_t i = 0; i < 5; ++i) m.scalars.push_back(share(random));
+    m.scalars[0] = 0.0;
+    m.scalars[4] = share(random) < 0.5 ? 0.05 : 1.0;  // turns at the face or goes on
+    return sceneOf(finished(std::move(m)), onePeak(0.5));
+}
+
+TEST(StressTies, ValuesThatFloatTakesForOthers) {
+    // v lies beside the scalar that a ray has where it enters, passes a face or leaves by less than float tells
+    std::mt19937 random(7);
+    int tried = 0;
+    for (int mesh = 0; mesh < 6; ++mesh) {
+        Scene scene = twoCells(random);
+        const Camera camera = cameraAt({0.3, 0.2, mesh % 2 == 0 ? -6.0 : 6.0}, {0.1, 0.1, 0}, 24, 24);
+        const int x = 9 + mesh % 5, y = 10 + mesh % 3;
+        const RayFrame ray(pixelRay(cameraFrame(camera), x, y));
+        const auto first = cut(ray, *scene.mesh, 0), second = cut(ray, *scene.mesh, 1);
+        if (!first || !second) continue;
+        for (double near : {first->scalarIn, first->scalarOut, second->scalarIn, second->scalarOut})
+            for (double beside : {-5e-8, 1e-7, 4e-7}) {
+                const double value = near + beside;
+                scene.transferFunction = onePeak(value);
+                const auto crosses = [&](const RaySegment& s) { return (s.scalarIn < value) != (s.scalarOut < value); };
+                const int times = crosses(*first) + crosses(*second);
+                const Image expected = referenceImage(scene, camera);
+                ASSERT_NEAR(expected.at(x, y).w, times == 0 ? never : times == 1 ? once : twice, 1e-6);
+                holdEnginesTo(expected, scene, camera, exact, fmt::format("mesh {}, {:.3f} {:+}", mesh, near, beside));
+                ++tried;
+            }
+    }
+    EXPECT_GT(tried, 50);
 }
 
 }  // namespace

@@ -45,17 +45,16 @@ GlCellBuffer::GlCellBuffer(const GlFunctions& gl, GlCellLayout layout, std::size
     // Corners 1 to 3 of the last cell read beyond it as if a record followed: one cell more holds that.
     gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>((cells + 1) * layout.slots() * slotBytes), nullptr, usage);
     const GLuint vectors = layout.attributes ? 8 : layout.gradient ? 7 : 6;
-    const auto offset = [](std::size_t bytes) { return reinterpret_cast<const void*>(bytes); };
+    const auto vector = [](GLuint i) { return bufferOffset(slotBytes + std::size_t{i} * 4 * sizeof(float)); };
     gl_.EnableVertexAttribArray(0);
     gl_.VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, slotBytes, nullptr);
     for (GLuint i = 0; i < vectors; ++i) {
         gl_.EnableVertexAttribArray(1 + i);
-        gl_.VertexAttribPointer(1 + i, 4, GL_FLOAT, GL_FALSE, slotBytes, offset(slotBytes + i * 4 * sizeof(float)));
+        gl_.VertexAttribPointer(1 + i, 4, GL_FLOAT, GL_FALSE, slotBytes, vector(i));
     }
     if (layout.attributes) {
         gl_.EnableVertexAttribArray(1 + vectors);
-        gl_.VertexAttribIPointer(1 + vectors, 4, GL_UNSIGNED_INT, slotBytes,
-                                 offset(slotBytes + vectors * 4 * sizeof(float)));
+        gl_.VertexAttribIPointer(1 + vectors, 4, GL_UNSIGNED_INT, slotBytes, vector(vectors));
     }
     gl_.BindVertexArray(0);
     checkGl(gl_, "vertex buffers");

@@ -33,8 +33,9 @@ void GlRadixSort::scan(GLuint plan, GLuint values, std::size_t count) const {
 }
 
 void GlRadixSort::sortBits(GLuint plan, std::size_t sortGroups, GLuint keyed, GLuint scratch, unsigned bits) const {
-    const unsigned twoPasses = 2 * digitBits;  // the result ends where it began
-    for (std::size_t shift = 0; shift < (bits + twoPasses - 1) / twoPasses * twoPasses; shift += digitBits) {
+    constexpr unsigned twoPasses = 2 * digitBits;  // the result ends where it began
+    const std::size_t sorted = std::size_t{twoPasses} * ((bits + twoPasses - 1) / twoPasses);
+    for (std::size_t shift = 0; shift < sorted; shift += digitBits) {
         count_.use();
         count_.set("shift", shift);
         bindStorage(gl_, {plan, keyed, digits_->name()});

@@ -64,7 +64,7 @@ std::vector<std::string_view> cellFiles(std::string_view last) {
 
 }  // namespace
 
-GlResidentCells::Kernels::Kernels(const GlFunctions& gl, GlDefines defines)
+GlResidentCells::Kernels::Kernels(const GlFunctions& gl, const GlDefines& defines)
     : cull(gl, defines, cellFiles("projection/gl/gl_cull.comp")),
       setUp(gl, defines, cellFiles("projection/gl/gl_cell_setup.comp")),
       check(gl, defines, cellFiles("projection/gl/gl_order_check.comp")) {}
@@ -234,7 +234,7 @@ void GlResidentCells::draw(const CameraFrame& frame, const std::vector<mesh::Cel
         useCellProgram();
         gl_.BindVertexArray(buffer.vertexArray());
         gl_.DrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
-                                 reinterpret_cast<const void*>(chunkBytes(chunk) + offsetof(ChunkCommands, draw)));
+                                 bufferOffset(chunkBytes(chunk) + offsetof(ChunkCommands, draw)));
     }
     gl_.BindVertexArray(0);
     checkGl(gl_, "resident cells");

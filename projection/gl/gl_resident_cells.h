@@ -56,7 +56,7 @@ public:
 private:
     struct Kernels {
         GlKernel cull, setUp, check;
-        Kernels(const GlFunctions& gl, GlDefines defines);
+        Kernels(const GlFunctions& gl, const GlDefines& defines);
     };
     const Kernels& kernels(bool orthographic);
     void project(const CameraFrame& frame);

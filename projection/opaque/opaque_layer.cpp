@@ -25,6 +25,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr int tileSize = 32;  // pixels
+constexpr std::size_t tilePixels = std::size_t{tileSize} * tileSize;
 
 /// A slice may lie in a clipping plane: rounding must not decide whether it shows.
 constexpr double rangeTolerance = 1e-9;
@@ -147,14 +148,14 @@ public:
           frame_(cameraFrame(camera)),
           depths_(depthRange(layer.bounds_, camera)),
           maps_(maps),
-          tilesAcross_((camera.width + tileSize - 1) / tileSize),
-          tilesDown_((camera.height + tileSize - 1) / tileSize) {}
+          tilesAcross_(static_cast<std::size_t>((camera.width + tileSize - 1) / tileSize)),
+          tileCount_(tilesAcross_ * static_cast<std::size_t>((camera.height + tileSize - 1) / tileSize)) {}
 
     void render() {
         bin();
         hits_.assign(static_cast<std::size_t>(frame_.width) * static_cast<std::size_t>(frame_.height), {});
-        veils_.resize(static_cast<std::size_t>(tilesAcross_ * tilesDown_));
-        tbb::parallel_for(0, tilesAcross_ * tilesDown_, [&](int tile) { renderTile(tile); });
+        veils_.resize(tileCount_);
+        tbb::parallel_for(std::size_t{0}, tileCount_, [&](std::size_t tile) { renderTile(tile); });
         for (std::size_t pixel = 0; pixel < hits_.size(); ++pixel)
             if (hits_[pixel].distance < infinite)
                 putOpaque(camera_, maps_, pixel, hits_[pixel].distance, hits_[pixel].color);
@@ -203,7 +204,7 @@ private:
         if (box.empty()) return;
         for (int y = box.y0 / tileSize; y <= (box.y1 - 1) / tileSize; ++y)
             for (int x = box.x0 / tileSize; x <= (box.x1 - 1) / tileSize; ++x)
-                use(static_cast<std::size_t>(y * tilesAcross_ + x));
+                use(static_cast<std::size_t>(y) * tilesAcross_ + static_cast<std::size_t>(x));
     }
 
     /// Triangles of each tile, ascending, so that the picture does not depend on the threads.
@@ -211,7 +212,7 @@ private:
         boxes_.resize(layer_.triangles_.size());
         tbb::parallel_for(std::size_t{0}, boxes_.size(),
                           [&](std::size_t i) { boxes_[i] = boxOf(layer_.triangles_[i]); });
-        tiles_.resize(static_cast<std::size_t>(tilesAcross_ * tilesDown_));
+        tiles_.resize(tileCount_);
         for (std::size_t i = 0; i < boxes_.size(); ++i)
             forEachTile(boxes_[i], [&](std::size_t tile) { tiles_[tile].push_back(static_cast<std::uint32_t>(i)); });
     }
@@ -219,28 +220,29 @@ private:
     /// The tile's rays and what each has met so far.
     struct Tile {
         PixelBox box;
-        std::array<RayFrame, tileSize * tileSize> rays;
+        std::array<RayFrame, tilePixels> rays;
         struct Met {
             double distance = infinite;
             const Triangle* triangle = nullptr;
             TriangleCrossing where{};
         };
-        std::array<Met, tileSize * tileSize> met;
+        std::array<Met, tilePixels> met;
 
         static std::size_t slot(const PixelBox& box, int x, int y) {
-            return static_cast<std::size_t>((y - box.y0) * tileSize + x - box.x0);
+            return static_cast<std::size_t>(y - box.y0) * tileSize + static_cast<std::size_t>(x - box.x0);
         }
     };
 
-    void renderTile(int number) {
-        const std::vector<std::uint32_t>& members = tiles_[static_cast<std::size_t>(number)];
+    void renderTile(std::size_t number) {
+        const std::vector<std::uint32_t>& members = tiles_[number];
         if (members.empty()) return;
         const auto tile = std::make_unique<Tile>();
-        const int x0 = number % tilesAcross_ * tileSize, y0 = number / tilesAcross_ * tileSize;
+        const int x0 = static_cast<int>(number % tilesAcross_) * tileSize,
+                  y0 = static_cast<int>(number / tilesAcross_) * tileSize;
         tile->box = {x0, y0, std::min(x0 + tileSize, frame_.width), std::min(y0 + tileSize, frame_.height)};
         forEachPixel(tile->box,
                      [&](int x, int y) { tile->rays[Tile::slot(tile->box, x, y)] = RayFrame(pixelRay(frame_, x, y)); });
-        for (const std::uint32_t index : members) meet(*tile, index, veils_[static_cast<std::size_t>(number)]);
+        for (const std::uint32_t index : members) meet(*tile, index, veils_[number]);
         forEachPixel(tile->box, [&](int x, int y) {
             const std::size_t slot = Tile::slot(tile->box, x, y);
             const auto& [distance, triangle, where] = tile->met[slot];
@@ -311,7 +313,7 @@ private:
     const CameraFrame frame_;
     const DepthRange depths_;
     PixelMaps& maps_;
-    int tilesAcross_, tilesDown_;
+    std::size_t tilesAcross_, tileCount_;
     std::vector<Hit> hits_;                          // by pixel
     std::vector<std::vector<Veil>> veils_;           // by tile
     std::vector<PixelBox> boxes_;                    // by triangle

@@ -187,12 +187,14 @@ void addBenchOptions(CLI::App& command, BenchOptions& options) {
     addList<std::uint64_t>(command, "--cells", options.cells, parseCellCount,
                            "tetrahedra of fields without a size (default 0.15M,1.25M)", "N,…");
     addList<glm::ivec2>(command, "--sizes", options.sizes, parseSize, "image sizes (default 512x512)", "WxH,…");
-    addList<std::string>(
-        command, "--tf", options.transferFunctions, sameText,
-        fmt::format("transfer functions: {} (default all but sparse)", fmt::join(benchTransferFunctionNames(), ", ")),
-        "NAME,…");
+    addList<std::string>(command, "--tf", options.transferFunctions, sameText,
+                         fmt::format("transfer functions: {} (default all but sparse and veiled)",
+                                     fmt::join(benchTransferFunctionNames(), ", ")),
+                         "NAME,…");
     addList<projection::Mode>(command, "--mode", options.modes, parseMode,
                               fmt::format("{} (default standard)", modeNames()), "MODE,…");
+    addList<bool>(command, "--silhouette", options.silhouettes, parseSwitch,
+                  "on, off: silhouette enhancement (default off)", "on,off");
     addList<std::string>(command, "--engines", options.engines, sameText,
                          fmt::format("{}; gl or vtk for all of that kind (default all but the reference)",
                                      fmt::join(knownNames(), ", ")),
@@ -247,7 +249,9 @@ BenchPlan benchPlan(const BenchOptions& options) {
     plan.sources = benchSources(options.scenes, options.cells);
     plan.sizes = options.sizes;
     plan.transferFunctions = options.transferFunctions;
-    for (const projection::Mode mode : options.modes) plan.modes.push_back({modeName(mode), mode});
+    for (const projection::Mode mode : options.modes)
+        for (const bool silhouette : options.silhouettes)
+            plan.modes.push_back({modeName(mode) + (silhouette ? " silhouettes" : ""), mode, silhouette});
     plan.engines = chooseEngines(options);
     plan.frames = options.plan;
     plan.frames.judged = std::min(plan.frames.judged, plan.frames.frames);

@@ -30,6 +30,7 @@ struct BenchOptions {
     std::vector<int> threads{0};
     std::vector<double> tableErrors{0.0};
     std::vector<projection::OrderMethod> orders{projection::OrderMethod::Auto};
+    std::vector<bool> silhouettes{false};
     std::vector<bool> everyNode{false}, skipInvisible{true}, earlyTermination{true};
     FramePlan plan;
     std::string csv, json;

@@ -18,6 +18,7 @@ namespace tetralux::apps {
 struct NamedMode {
     std::string name;
     projection::Mode mode = projection::Mode::Standard;
+    bool silhouette = false;
 };
 
 /// The engines asked for, with every table size and thread count asked for.

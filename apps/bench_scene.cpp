@@ -61,6 +61,13 @@ TransferFunction peaksFunction(const mesh::ScalarMesh&) {
             .isosurfaces = {{0.3, 0.4, {0.20, 0.55, 0.90}}, {0.6, 0.8, {0.95, 0.65, 0.15}}}};
 }
 
+TransferFunction veiledFunction(const mesh::ScalarMesh& mesh) {
+    TransferFunction function = peaksFunction(mesh);
+    function.color = fiveColors;
+    function.extinction = {{0.0, 0.1}, {1.0, 0.1}};
+    return function;
+}
+
 TransferFunction opaqueFunction(const mesh::ScalarMesh&) {
     return {.color = fiveColors, .extinction = {{0.0, 0.0}, {0.08, 0.0}, {0.12, 300.0}}, .isosurfaces = {}};
 }
@@ -80,7 +87,7 @@ struct NamedFunction {
 };
 constexpr std::array functions{NamedFunction{"smooth", smoothFunction}, NamedFunction{"peaks", peaksFunction},
                                NamedFunction{"opaque", opaqueFunction}, NamedFunction{"constant", constantFunction},
-                               NamedFunction{"sparse", sparseFunction}};
+                               NamedFunction{"sparse", sparseFunction}, NamedFunction{"veiled", veiledFunction}};
 
 bool isSizelessField(const std::string& scene) {
     const std::vector<std::string> names = mesh::proceduralFieldNames();

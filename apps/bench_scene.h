@@ -34,6 +34,7 @@ std::shared_ptr<const mesh::ScalarMesh> readBenchMesh(const std::string& source)
 /// opaque    rays end within a few cells of the surface at a twelfth of the range
 /// constant  one colour, the extinction of `smooth`: needs no order
 /// sparse    `smooth` where only one cell in twenty shows
+/// veiled    the isosurfaces of `peaks` in a thin fog
 std::vector<std::string> benchTransferFunctionNames();
 
 /// That function for the range of this mesh, absolute. Extinction is per mesh diagonal/√3 (the edge of a cube), or per

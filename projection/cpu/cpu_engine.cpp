@@ -115,6 +115,10 @@ private:
     void prepare();
     void findVisibleCells();
     TileKind kind() const;
+    /// Whether shading asks for silhouettes at most, which the quick kernel of optical depths knows.
+    bool quickDepth() const {
+        return skips_.quickLooks && !samplesVertices(scene_) && silhouettesAtMost(scene_.settings.shading);
+    }
     bool ordered() const { return !orderFree(scene_.settings.mode) && frame_.kind != TileKind::Absorption; }
     void makeLists(const Camera& camera, FrameReport& report);
     void setFrame();
@@ -183,11 +187,13 @@ TileKind CpuEngine::kind() const {
         default:
             break;
     }
-    // so do samples at the vertices: kernels without it do not know where in a cell a segment lies
-    if (shading.needsGradient() || samplesVertices(scene_)) return TileKind::Shaded;
     // other classifications show no peaks, so that theirs do not count for one colour
     const bool plain = scene_.settings.classification == Classification::Preintegrated;
-    return skips_.orderFree && plain && transfer_.constantColor() ? TileKind::Absorption : TileKind::Composite;
+    const bool oneColor = skips_.orderFree && plain && transfer_.constantColor();
+    // so do samples at the vertices: kernels without it do not know where in a cell a segment lies
+    if (shading.needsGradient() || samplesVertices(scene_))
+        return oneColor && quickDepth() ? TileKind::Absorption : TileKind::Shaded;
+    return oneColor ? TileKind::Absorption : TileKind::Composite;
 }
 
 void CpuEngine::prepare() {
@@ -284,7 +290,7 @@ void CpuEngine::setLimits(const View& view) {
     const auto& shading = scene_.settings.shading;
     limited_ = mapped || frame_.classification != Classification::Preintegrated || frame_.kind == TileKind::Additive ||
                frame_.kind == TileKind::Depth || frame_.kind == TileKind::Contribution ||
-               (frame_.kind == TileKind::Absorption && shading.needsGradient());
+               (frame_.kind == TileKind::Absorption && shading.needsGradient() && !quickDepth());
     const DepthRange range = depthRange(mesh_.bounds, view.camera);
     frame_.greyOfZero = range.greyAt(0.0);
     frame_.greyPerDistance = range.greyAt(units_.length) - frame_.greyOfZero;

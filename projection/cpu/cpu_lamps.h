@@ -44,11 +44,11 @@ HWY_INLINE void setLook(const QuickLook& quick, const CellBatch& batch, std::siz
     cell.j = j;
     cell.gradient = batch.gradient[j];
     cell.steepness = batch.gradient[j] * std::abs(batch.scale[j]);
+    cell.perSteepness = cell.steepness > 0 ? 1 / cell.steepness : 0;
     cell.lengthScale = ScaleInvariant ? batch.gradient[j] * batch.scale[j] : batch.scale[j];
     if constexpr (look == Look::Silhouettes) return;
     const float n[3] = {batch.normal[0][j], batch.normal[1][j], batch.normal[2][j]};
     if constexpr (look == Look::Lamps) {
-        cell.perSteepness = cell.steepness > 0 ? 1 / cell.steepness : 0;
         for (std::size_t axis = 0; axis < 3; ++axis) cell.normal[axis] = n[axis];
     }
     for (std::size_t i = 0; i < quick.lights; ++i) {

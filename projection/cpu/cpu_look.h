@@ -32,9 +32,35 @@ HWY_INLINE real anyOpacity(real depth) {
     return select(thick, real(1.0f) - fadeOf(min(depth, real(80.0f))), pieceOpacity(min(depth, pieceDepthLimit())));
 }
 
-/// 1/|n·d|, finite.
+/// 1/|n·d|, finite. Gradients of any size: what is bounded is a share of theirs.
 HWY_INLINE real silhouetteFactor(const CellLook& cell, const BlockLook& block) {
-    return (real(cell.steepness) * block.rayLength) * reciprocal(max(abs(block.fall), real(1e-18f)));
+    return block.rayLength * reciprocal(max(abs(block.fall * real(cell.perSteepness)), real(1e-18f)));
+}
+
+/// Optical depth alone, with silhouettes: isosurfaces by 1/|n·d|, what lies between over paths that hold it already.
+struct EnhancedDepthSink {
+    static constexpr bool depthOnly = true;
+    const CellLook& cell;
+    const BlockLook& block;
+    real depth;
+
+    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) {
+        const real factor = cell.gradient > 0 ? silhouetteFactor(cell, block) : real(1.0f);
+        depth = depth + keep(crossed, real(peak.depth) * factor);
+    }
+    HWY_INLINE void addDepth(real more) { depth = depth + more; }
+};
+
+/// The depth of one block's segments with silhouettes, behind `depth`: either integral is the standard one over another
+/// path.
+template <bool ScaleInvariant>
+HWY_INLINE real enhancedDepth(const CpuTransfer& transfer, const CellLook& cell, const BlockLook& block,
+                              std::size_t first, std::size_t last, const Segments& segments, real depth) {
+    Segments longer = segments;
+    if (!ScaleInvariant && cell.gradient > 0) longer.length = segments.length * silhouetteFactor(cell, block);
+    EnhancedDepthSink sink{cell, block, depth};
+    addAlong<false>(transfer, first, last, longer, sink);
+    return sink.depth;
 }
 
 /// Segments of one block with a look, composited into `sink`.
@@ -48,28 +74,36 @@ struct LookedSegments {
     const Segments& segments;
 
     HWY_INLINE bool silhouettes() const {
-        // without a gradient the scale-invariant integral shows nothing
-        return shows == CellShows::NarrowPeak ||
-               ((!Lit || frame.look.silhouettes) && (ScaleInvariant || cell.gradient > 0));
+        return shows != CellShows::Anything || ((!Lit || frame.look.silhouettes) && cell.gradient > 0);
+    }
+    /// Without a gradient the scale-invariant integral shows nothing within a piece, one way or the other.
+    HWY_INLINE bool silhouettesWithin() const {
+        return (ScaleInvariant && (!Lit || frame.look.silhouettes)) || silhouettes();
     }
 
     HWY_INLINE void add(std::size_t first, std::size_t last, ColorSink& sink) const {
         if constexpr (shows == CellShows::NarrowPeak) return addOnlyPeak(*peaks.peak[cell.j], sink);
         const CpuTransfer& transfer = *frame.transfer;
+        if constexpr (shows == CellShows::VeiledPeak) {
+            if (HWY_LIKELY(addVeiledPeak(transfer.pieces()[first], transfer.pieces()[last], *peaks.peak[cell.j], sink)))
+                return;
+            return addAny(first, last, sink);
+        }
         if (first == last && (!transfer.pieces()[first].visible || addThin(transfer.pieces()[first], sink))) return;
         if constexpr (Peaks) {
-            if (const TransferPeak* peak = peaks.peak[cell.j]) return addOnlyPeak(*peak, sink);
+            if (const TransferPeak* peak = peaks.onlyPeak(cell.j)) return addOnlyPeak(*peak, sink);
         }
-        SegmentSink whole;
-        whole.begin();
-        if (first == last)
-            addWithinPiece<ScaleInvariant>(transfer.pieces()[first], segments, whole);
-        else
-            addAcrossPieces<ScaleInvariant>(transfer, first, last, segments, whole);
-        addWhole(whole, sink);
+        addAny(first, last, sink);
     }
 
 private:
+    HWY_INLINE void addAny(std::size_t first, std::size_t last, ColorSink& sink) const {
+        SegmentSink whole;
+        whole.begin();
+        addAlong<ScaleInvariant>(*frame.transfer, first, last, segments, whole);
+        addWhole(whole, sink);
+    }
+
     /// Segments within one piece, thin before silhouettes; false if some are not.
     HWY_INLINE bool addThin(const TransferPiece& piece, ColorSink& sink) const {
         const real half = real(0.5f) * (segments.back - segments.front);
@@ -80,7 +114,7 @@ private:
         const real depth = path * extinction, halfStep = path * step;
         const mask steep = abs(halfStep) > pieceSlopeLimit();
         real opacity, skew;
-        if (silhouettes()) {
+        if (silhouettesWithin()) {
             // α′/α = D′/D·(α′/D′)/(α/D), where D′/D is that of the paths
             const real longer = ScaleInvariant ? segments.length : path * silhouetteFactor(cell, block);
             const real longerDepth = longer * extinction;
@@ -118,18 +152,17 @@ private:
         sink.t = sink.t - ta;
     }
 
+    /// α′ of an isosurface.
+    HWY_INLINE real enhancedOpacity(const TransferPeak& peak) const {
+        if (shows == CellShows::NarrowPeak || peaks.narrow(cell.j))
+            return peaks.template opacity<Orthographic>(cell.j, block.fall, block.inverse);
+        return real(1.0f) - fadeOf(min(real(peak.depth) * silhouetteFactor(cell, block), real(80.0f)));
+    }
+
     HWY_INLINE void addOnlyPeak(const TransferPeak& peak, ColorSink& sink) const {
         const mask hits = crossed(peak, segments);
         if (Lit && none(hits)) return;
-        real opacity(peak.opacity);
-        if (silhouettes()) {
-            if (shows == CellShows::NarrowPeak || peaks.narrow(cell.j)) {
-                opacity = peaks.opacity(cell.j, block.fall * block.inverse);
-            } else {
-                const real depth = real(peak.depth) * silhouetteFactor(cell, block);
-                opacity = real(1.0f) - fadeOf(min(depth, real(80.0f)));
-            }
-        }
+        const real opacity = silhouettes() ? enhancedOpacity(peak) : real(peak.opacity);
         const real ta = keep(hits, sink.t * opacity);
         if constexpr (Lit) {
             const auto light = lightShares<look, Orthographic>(frame.look, cell, block, hits, opacity);
@@ -142,6 +175,70 @@ private:
             sink.b += real(peak.color[2]) * ta;
         }
         sink.t = sink.t - ta;
+    }
+
+    /// What a segment has of the piece below an isosurface, or of the one above.
+    struct Side {
+        real middle, half, step, depth, halfStep, opacity, weighted;
+
+        HWY_INLINE Side(const TransferPiece& piece, real front, real back) {
+            half = real(0.5f) * (back - front);
+            middle = front + half - real(piece.middle);
+            step = real(piece.extinctionSlope) * half;
+            depth = abs(half + half) * max(real(piece.extinction) + real(piece.extinctionSlope) * middle, real(0.0f));
+            halfStep = abs(half + half) * step;
+        }
+        HWY_INLINE void setFine() {
+            opacity = finePieceOpacity(depth);
+            weighted = middle * opacity + half * finePieceSkew(depth, halfStep);
+        }
+        HWY_INLINE void setThin() {
+            opacity = pieceOpacity(depth);
+            weighted = middle * opacity + half * pieceSkew(depth, halfStep);
+        }
+    };
+
+    /// Segments that may cross an isosurface from one piece to the next, scale-invariant; false if some are deep.
+    /// Either side is empty where they do not cross it, so that nobody needs to know which way the scalar goes but to
+    /// tell what hides what.
+    HWY_INLINE bool addVeiledPeak(const TransferPiece& a, const TransferPiece& b, const TransferPeak& peak,
+                                  ColorSink& sink) const {
+        const real value(peak.value), one(1.0f), least(1e-37f);
+        Side low(a, min(segments.front, value), min(segments.back, value)),
+            high(b, max(segments.front, value), max(segments.back, value));
+        const real depth =
+            (low.depth + high.depth) * (segments.length * reciprocal(max(abs(segments.back - segments.front), least)));
+        const real deepest = max(low.depth, high.depth);
+        if (a.fine && b.fine && HWY_LIKELY(none(deepest > finePieceLimit()))) {
+            low.setFine();
+            high.setFine();
+        } else {
+            const mask steep = max(abs(low.halfStep), abs(high.halfStep)) > pieceSlopeLimit();
+            if (HWY_UNLIKELY(!none(either(deepest > pieceDepthLimit(), steep)))) return false;
+            low.setThin();
+            high.setThin();
+        }
+        const mask below = segments.front < value, hits = crossed(peak, segments);
+        // what the side in front lets through
+        const real before = one - select(below, low.opacity, high.opacity);
+        const real shown = keep(hits, before * real(peak.opacity)), behind = before - shown;
+        const real lowWeight = select(below, one, behind), highWeight = select(below, behind, one);
+        const real opacity = low.opacity * lowWeight + high.opacity * highWeight + shown;
+        const real enhanced = keep(hits, enhancedOpacity(peak)), veil = anyOpacity(depth);
+        const real ta = sink.t * (veil + enhanced * (one - veil)), share = ta * reciprocal(max(opacity, least));
+        const real lowShare = share * lowWeight, highShare = share * highWeight, peakShare = share * shown;
+        const real alphaLow = low.opacity * lowShare, leanLow = low.weighted * lowShare,
+                   alphaHigh = high.opacity * highShare, leanHigh = high.weighted * highShare;
+        const auto channel = [&](std::size_t c, real& sum) HWY_ATTR {
+            sum += real(a.color[c]) * alphaLow + real(a.colorSlope[c]) * leanLow;
+            sum += real(b.color[c]) * alphaHigh + real(b.colorSlope[c]) * leanHigh;
+            sum += real(peak.color[c]) * peakShare;
+        };
+        channel(0, sink.r);
+        channel(1, sink.g);
+        channel(2, sink.b);
+        sink.t = sink.t - ta;
+        return true;
     }
 
     /// What was gathered along several pieces.

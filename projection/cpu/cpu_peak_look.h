@@ -39,26 +39,35 @@ HWY_INLINE real fadeOf(real depth) {
     return hn::BitCast(FloatTag(), hn::Add(hn::BitCast(IntTag(), p.v), exponent));
 }
 
-/// What a block of pixels need not ask about its cell. NarrowPeak: one isosurface and nothing else, with silhouettes,
-/// whose polynomial holds.
-enum class CellShows { Anything, NarrowPeak };
+/// What a block of pixels need not ask about its cell, with silhouettes.
+enum class CellShows {
+    Anything,
+    NarrowPeak,  ///< one isosurface and nothing else, and the polynomial holds
+    VeiledPeak   ///< one isosurface and the pieces of the transfer function beside it, scale-invariant
+};
 
 /// Of the cells of one batch: what each shows, and the polynomials.
 struct PeakLooks {
     static constexpr std::size_t room = std::max(CellBatch::capacity, laneCount());
     static constexpr float mostSpread = 0.048f;  // and what products of spreads add
 
-    std::size_t first[CellBatch::capacity], last[CellBatch::capacity];  ///< pieces of the transfer function
-    const TransferPeak* peak[CellBatch::capacity];                      ///< nullptr: there is more to see, or nothing
+    std::size_t first[CellBatch::capacity],
+        last[CellBatch::capacity];                  ///< pieces of the transfer function
+    const TransferPeak* peak[CellBatch::capacity];  ///< the only one; nullptr: none, or more
+    bool veiled[CellBatch::capacity];               ///< there is more to see than the peak
     /// The largest |ε|, z₀, and Σ power[i]·(z − z₀)^i. The polynomial does not hold where spread is not below
     /// mostSpread.
     alignas(64) float spread[room], centre[room], power[5][room];
 
     bool narrow(std::size_t j) const { return spread[j] < mostSpread; }
 
-    /// `z`: scalarFall/(ray per depth) of pixels of cell j.
-    HWY_INLINE real opacity(std::size_t j, real z) const {
-        const real x = z - real(centre[j]);
+    const TransferPeak* onlyPeak(std::size_t j) const { return veiled[j] ? nullptr : peak[j]; }
+
+    /// Of pixels of cell j: scalarFall, and one over the ray per depth.
+    template <bool Orthographic>
+    HWY_INLINE real opacity(std::size_t j, real fall, real inverse) const {
+        if constexpr (Orthographic) return real(power[0][j]);
+        const real x = fall * inverse - real(centre[j]);
         real p = real(power[4][j]) * x + real(power[3][j]);
         for (std::size_t i = 3; i-- > 0;) p = p * x + real(power[i][j]);
         return p;
@@ -70,33 +79,59 @@ struct TileRays {
     float inverse = 1, spread = 0;
 };
 
-/// What the polynomials follow from, per cell of a batch: scalarFall at its reference point, by how much it differs
-/// from that over the cell's pixels at most, and D·steepness.
-struct PeakView {
-    alignas(64) float fall[PeakLooks::room] = {}, spread[PeakLooks::room] = {}, steepDepth[PeakLooks::room] = {};
+using CellTag = hn::CappedTag<float, CellBatch::capacity>;
 
-    template <bool Orthographic>
-    HWY_INLINE void set(const CellBatch& batch, std::size_t j, const TransferPeak& peak) {
-        fall[j] = batch.scalarPerRho[j];
-        steepDepth[j] = peak.depth * (batch.gradient[j] * std::abs(batch.scale[j]));
-        if constexpr (Orthographic) return;
-        const float x = batch.offsetX[j], y = batch.offsetY[j];
-        const float farX = std::max(std::abs(x + static_cast<float>(batch.begin[j][0])),
-                                    std::abs(x + static_cast<float>(batch.end[j][0]))),
-                    farY = std::max(std::abs(y + static_cast<float>(batch.begin[j][1])),
-                                    std::abs(y + static_cast<float>(batch.end[j][1])));
-        spread[j] = std::abs(batch.scalarPerX[j]) * farX + std::abs(batch.scalarPerY[j]) * farY;
-    }
+/// What the polynomials follow from, one lane per cell of a batch: scalarFall amid the cell's pixels, and by how much
+/// it differs from that over them at most.
+struct PeakView {
+    hn::Vec<CellTag> fall, spread;
 };
 
-inline HWY_NOINLINE void setPolynomials(const PeakView& view, const TileRays& rays, PeakLooks& looks) {
+template <bool Orthographic>
+HWY_INLINE PeakView peakView(const CellBatch& batch, std::size_t j) {
+    const CellTag tag;
+    const auto perRho = hn::LoadU(tag, batch.scalarPerRho + j);
+    if constexpr (Orthographic) return {perRho, hn::Zero(tag)};
+    const hn::RebindToSigned<CellTag> whole;
+    hn::Vec<decltype(whole)> beginX, beginY, endX, endY;
+    hn::LoadInterleaved2(whole, &batch.begin[j][0], beginX, beginY);
+    hn::LoadInterleaved2(whole, &batch.end[j][0], endX, endY);
+    const auto half = hn::Set(tag, 0.5f);
+    const auto extent = [&](auto begin, auto end)
+                            HWY_ATTR { return hn::Mul(half, hn::ConvertTo(tag, hn::Sub(end, begin))); };
+    const auto middle = [&](const float* offset, auto begin, auto end) HWY_ATTR {
+        return hn::MulAdd(half, hn::ConvertTo(tag, hn::Add(begin, end)), hn::LoadU(tag, offset + j));
+    };
+    const auto perX = hn::LoadU(tag, batch.scalarPerX + j), perY = hn::LoadU(tag, batch.scalarPerY + j);
+    const auto across =
+        hn::MulAdd(perX, middle(batch.offsetX, beginX, endX), hn::Mul(perY, middle(batch.offsetY, beginY, endY)));
+    return {hn::Sub(perRho, across),
+            hn::MulAdd(hn::Abs(perX), extent(beginX, endX), hn::Mul(hn::Abs(perY), extent(beginY, endY)))};
+}
+
+/// Lanes of cells as lanes of pixels: nothing beyond the batch.
+template <class Lanes>
+HWY_INLINE real pixelLanes(Lanes cells) {
+    if constexpr (laneCount() > CellBatch::capacity)
+        return hn::ZeroExtendVector(FloatTag(), cells);
+    else
+        return cells;
+}
+
+/// The polynomials of a batch. `depth`: D of each cell's isosurface.
+template <bool Orthographic>
+HWY_INLINE void setPolynomials(const CellBatch& batch, const float* depth, const TileRays& rays, PeakLooks& looks) {
+    const CellTag tag;
     const real one(1.0f);
-    for (std::size_t j = 0; j < CellBatch::capacity; j += laneCount()) {
-        const real fall = loadAligned(view.fall + j), centre = fall * real(rays.inverse);
-        storeAt(loadAligned(view.spread + j) / abs(fall) + real(rays.spread), looks.spread + j);
-        storeAt(centre, looks.centre + j);
-        const real perCentre = one / centre;
-        const real q = min(loadAligned(view.steepDepth + j) * abs(perCentre), real(80.0f)), fade = fadeOf(q);
+    for (std::size_t j = 0; j < CellBatch::capacity; j += hn::Lanes(tag)) {
+        const PeakView view = peakView<Orthographic>(batch, j);
+        const real fall = pixelLanes(view.fall), perFall = one / fall, perCentre = perFall * real(1.0f / rays.inverse);
+        const real steepness =
+            abs(pixelLanes(hn::LoadU(tag, batch.scale + j))) * pixelLanes(hn::LoadU(tag, batch.gradient + j));
+        storeAt(abs(perFall) * pixelLanes(view.spread) + real(rays.spread), looks.spread + j);
+        storeAt(fall * real(rays.inverse), looks.centre + j);
+        const real q = min(abs(perCentre) * steepness * pixelLanes(hn::LoadU(tag, depth + j)), real(80.0f)),
+                   fade = fadeOf(q);
         const real terms[4] = {q, q * (real(0.5f) * q - one), q * (q * (real(1.0f / 6.0f) * q - one) + one),
                                q * (q * (q * (real(1.0f / 24.0f) * q - real(0.5f)) + real(1.5f)) - one)};
         storeAt(one - fade, looks.power[0] + j);
@@ -124,28 +159,33 @@ HWY_INLINE void findPieces(const CpuTransfer& transfer, const CellBatch& batch, 
     }
 }
 
-/// The batch's cells that show one isosurface and nothing else, and their polynomials where there are silhouettes.
+/// The pieces that the batch's cells meet, their isosurface where there is just one, and its polynomial where there are
+/// silhouettes.
 template <bool Orthographic>
 HWY_INLINE void lookAtPeaks(const TileFrame& frame, const CellBatch& batch, std::size_t cells, const TileRays& rays,
                             PeakLooks& looks) {
-    PeakView view;
+    alignas(64) float depth[CellBatch::capacity] = {};
     bool any = false;
     for (std::size_t j = 0; j < cells; ++j) {
         findPieces<true>(*frame.transfer, batch, j, looks.first[j], looks.last[j]);
-        looks.peak[j] = onlyPeak(*frame.transfer, looks.first[j], looks.last[j]);
-        if (looks.peak[j] == nullptr) continue;
+        const TransferPiece &a = frame.transfer->pieces()[looks.first[j]], &b = frame.transfer->pieces()[looks.last[j]];
+        looks.peak[j] = nullptr;
+        if (looks.last[j] != looks.first[j] + 1 || a.peakEnd != a.peakBegin + 1) continue;
+        looks.peak[j] = &frame.transfer->peaks()[a.peakBegin];
+        looks.veiled[j] = a.visible || b.visible;
+        depth[j] = looks.peak[j]->depth;
         any = true;
-        view.template set<Orthographic>(batch, j, *looks.peak[j]);
     }
-    if (any && frame.look.silhouettes) setPolynomials(view, rays, looks);
+    if (!any || !frame.look.silhouettes) return;
+    setPolynomials<Orthographic>(batch, depth, rays, looks);
 }
 
 /// Fills the tile's inverse ray lengths.
 inline TileRays inverseRayLengths(TileBuffers& px) {
-    const real one(1.0f), least(-3e38f);
+    const real least(-3e38f);
     real most = least, mostNegated = least;
     for (std::size_t i = 0; i < tilePixels; i += laneCount()) {
-        const real inverse = one / loadAligned(px.rayLength + i);
+        const real inverse = reciprocal(loadAligned(px.rayLength + i));
         storeAt(inverse, px.inverseLength + i);
         most = max(most, inverse);
         mostNegated = max(mostNegated, -inverse);

@@ -36,6 +36,10 @@ QuickLamp quickLamp(const FrameLight& light, const glm::vec3& specular, const Ti
 
 }  // namespace
 
+bool silhouettesAtMost(const shading::ShadingSettings& settings) {
+    return !settings.lit() && settings.gradientOpacity == 0 && !settings.approximateSilhouette && !settings.depthColor;
+}
+
 QuickLook quickLook(const shading::ShadingSettings& shading, const TileFrame& frame) {
     QuickLook quick;
     const bool plain = shading.plain();

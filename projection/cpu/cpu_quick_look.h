@@ -6,6 +6,9 @@
 
 namespace tetralux::projection {
 
+/// Whether nothing but silhouettes (Kraus 2005, Equation 15) is asked for, or not even these.
+bool silhouettesAtMost(const shading::ShadingSettings& settings);
+
 /// The kernel that draws such silhouettes and lights, and what it needs. `frame`: with its axes and lights.
 QuickLook quickLook(const shading::ShadingSettings& shading, const TileFrame& frame);
 

@@ -231,6 +231,14 @@ HWY_INLINE void addAcrossPieces(const CpuTransfer& transfer, std::size_t first, 
     }
 }
 
+/// Segments along pieces first … last.
+template <bool ScaleInvariant, class Sink>
+HWY_INLINE void addAlong(const CpuTransfer& transfer, std::size_t first, std::size_t last, const Segments& segments,
+                         Sink& sink) {
+    if (first != last) return addAcrossPieces<ScaleInvariant>(transfer, first, last, segments, sink);
+    if (transfer.pieces()[first].visible) addWithinPiece<ScaleInvariant>(transfer.pieces()[first], segments, sink);
+}
+
 }  // namespace tetralux::projection::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

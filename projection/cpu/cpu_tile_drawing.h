@@ -29,7 +29,7 @@ namespace tetralux::projection::HWY_NAMESPACE {
 
 /// `Limited`: within frame.limits and with frame.classification; then ScaleInvariant is false and frame.scaleInvariant
 /// counts, and Peaks is true.
-/// `look`: how Composite is shaded; General: not at all.
+/// `look`: how Composite is shaded, and Absorption with silhouettes; General: not at all.
 template <TileKind Kind, bool Orthographic, bool ScaleInvariant, bool Peaks, bool Limited, Look look>
 class TileDrawing {
 public:
@@ -80,7 +80,7 @@ private:
     static constexpr GradientParts gradients = usesNormals                 ? GradientParts::All
                                                : look == Look::Silhouettes ? GradientParts::Magnitude
                                                                            : GradientParts::None;
-    static constexpr bool looksAtPeaks = look != Look::General && Peaks;
+    static constexpr bool looksAtPeaks = look != Look::General && Peaks && Kind == TileKind::Composite;
     static constexpr int rows = static_cast<int>(laneCount()) / columnWidth;
 
     void clear() {
@@ -110,7 +110,7 @@ private:
                     Orthographic ? 1.0f
                                  : static_cast<float>(std::sqrt(1 + frame_.pixel * frame_.pixel * (dx * dx + dy * dy)));
             }
-        if constexpr (look != Look::General) rays_ = inverseRayLengths(px_);
+        if constexpr (looksAtPeaks || look == Look::Lit || look == Look::Lamps) rays_ = inverseRayLengths(px_);
     }
 
     bool finished() const {
@@ -145,8 +145,13 @@ private:
         if constexpr (look != Look::General) setLook<look, ScaleInvariant>(frame_.look, batch_, j, look_);
         const CellBlocks blocks{j, &order, xBegin, yBegin, x1, y1, first, last};
         if constexpr (looksAtPeaks && look == Look::Silhouettes) {
-            if (HWY_LIKELY(peakLooks_.peak[j] != nullptr && look_.gradient > 0 && peakLooks_.narrow(j)))
-                return drawBlocks<CellShows::NarrowPeak>(blocks);
+            if (peakLooks_.peak[j] != nullptr && look_.gradient > 0) {
+                if (peakLooks_.veiled[j]) {
+                    if constexpr (ScaleInvariant) return drawBlocks<CellShows::VeiledPeak>(blocks);
+                } else if (HWY_LIKELY(peakLooks_.narrow(j))) {
+                    return drawBlocks<CellShows::NarrowPeak>(blocks);
+                }
+            }
         }
         drawBlocks<CellShows::Anything>(blocks);
     }
@@ -186,6 +191,7 @@ private:
             perRho{batch_.scalarPerRho[j]}, low{batch_.scalarLow[j]}, high{batch_.scalarHigh[j]},
             scale{look == Look::General ? batch_.scale[j] : look_.lengthScale};
         const real rayLength = loadAt(px_.rayLength + at);
+        real across(0.0f);
         if constexpr (Orthographic) {
             segments.front = scalarOrthographic(scalar, perX, perY, perRho, dx, dy, in, low, high);
             segments.back = scalarOrthographic(scalar, perX, perY, perRho, dx, dy, out, low, high);
@@ -194,7 +200,7 @@ private:
             const real towardsIn = real(1.0f) + in, towardsOut = real(1.0f) + out;
             const real inverse = reciprocal(towardsIn * towardsOut);
             const real ratioIn = inverse * towardsOut, ratioOut = inverse * towardsIn;
-            const real across = perX * dx + perY * dy;
+            across = perX * dx + perY * dy;
             segments.front = scalarOfRatio(scalar, across, perRho, in, ratioIn, low, high);
             segments.back = scalarOfRatio(scalar, across, perRho, out, ratioOut, low, high);
             segments.length = segmentLengthOfRatios(scale, in, out, ratioIn, ratioOut, rayLength);
@@ -206,7 +212,8 @@ private:
             if constexpr (look == Look::General)
                 integrate(first, last, segments, sink);
             else
-                integrateLooked<shows>({j, at, x, y, dx, dy, in, out, rayLength, cut}, first, last, segments, sink);
+                integrateLooked<shows>({j, at, x, y, dx, dy, in, out, rayLength, cut}, scalarFall(across, perRho),
+                                       first, last, segments, sink);
             storeAt(sink.r, px_.r + at);
             storeAt(sink.g, px_.g + at);
             storeAt(sink.b, px_.b + at);
@@ -214,6 +221,12 @@ private:
         } else if constexpr (Kind == TileKind::Absorption) {
             if constexpr (Limited) {
                 drawDepth({j, at, x, y, dx, dy, in, out, rayLength, cut}, t, first, last, segments);
+            } else if constexpr (look == Look::Silhouettes) {
+                BlockLook pixels;
+                pixels.fall = scalarFall(across, perRho);
+                pixels.rayLength = rayLength;
+                storeAt(enhancedDepth<ScaleInvariant>(*frame_.transfer, look_, pixels, first, last, segments, t),
+                        px_.t + at);
             } else {
                 DepthSink sink{t};
                 integrate(first, last, segments, sink);
@@ -244,20 +257,14 @@ private:
 
     template <class Sink>
     HWY_INLINE void integrate(std::size_t first, std::size_t last, const Segments& segments, Sink& sink) const {
-        const CpuTransfer& transfer = *frame_.transfer;
-        if (first == last) {
-            if (transfer.pieces()[first].visible)
-                addWithinPiece<ScaleInvariant>(transfer.pieces()[first], segments, sink);
-        } else {
-            addAcrossPieces<ScaleInvariant>(transfer, first, last, segments, sink);
-        }
+        addAlong<ScaleInvariant>(*frame_.transfer, first, last, segments, sink);
     }
 
     template <CellShows shows>
-    HWY_INLINE void integrateLooked(const Block& block, std::size_t first, std::size_t last, const Segments& segments,
-                                    ColorSink& sink) const {
+    HWY_INLINE void integrateLooked(const Block& block, real fall, std::size_t first, std::size_t last,
+                                    const Segments& segments, ColorSink& sink) const {
         BlockLook pixels;
-        pixels.fall = cellFall<Orthographic>(batch_, block.j, block.dx, block.dy);
+        pixels.fall = fall;
         pixels.rayLength = block.rayLength;
         pixels.inverse = loadAt(px_.inverseLength + block.at);
         if constexpr (look != Look::Silhouettes && !Orthographic) {

@@ -42,6 +42,16 @@ void drawShadedTile(const TileFrame& frame, int x0, int y0, std::span<const Tile
     }
 }
 
+template <bool Orthographic, bool ScaleInvariant>
+void drawAbsorbingTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+                       TileResult& result) {
+    if (frame.look.silhouettes)
+        drawTileAs<TileKind::Absorption, Orthographic, ScaleInvariant, true, false, Look::Silhouettes>(
+            frame, x0, y0, entries, image, result);
+    else
+        drawTileAs<TileKind::Absorption, Orthographic, ScaleInvariant, true>(frame, x0, y0, entries, image, result);
+}
+
 template <bool Orthographic>
 void drawTileIn(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
                 TileResult& result) {
@@ -55,9 +65,8 @@ void drawTileIn(const TileFrame& frame, int x0, int y0, std::span<const TileEntr
             return drawTileAs<TileKind::Average, Orthographic, false, false>(frame, x0, y0, entries, image, result);
         case TileKind::Absorption:
             if (frame.scaleInvariant)
-                return drawTileAs<TileKind::Absorption, Orthographic, true, true>(frame, x0, y0, entries, image,
-                                                                                  result);
-            return drawTileAs<TileKind::Absorption, Orthographic, false, true>(frame, x0, y0, entries, image, result);
+                return drawAbsorbingTile<Orthographic, true>(frame, x0, y0, entries, image, result);
+            return drawAbsorbingTile<Orthographic, false>(frame, x0, y0, entries, image, result);
         case TileKind::Composite:
             if (frame.scaleInvariant)
                 return peaks ? drawTileAs<TileKind::Composite, Orthographic, true, true>(frame, x0, y0, entries, image,

@@ -61,6 +61,18 @@ TEST_F(BenchCommand, SettingsAreAxes) {
     EXPECT_EQ(settings.size(), 8u);
 }
 
+// Silhouettes make a picture of its own, more opaque than the plain one and judged by the reference's.
+TEST_F(BenchCommand, SilhouettesArePicturesOfTheirOwn) {
+    expectGood(
+        "bench bucky:8 --engines cpu --tf veiled --mode scale-invariant --silhouette off,on --sizes 64x64 --frames 1 "
+        "--quiet --json out.json");
+    const nlohmann::json rows = json("out.json")["rows"];
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[0]["mode"], "scale-invariant");
+    EXPECT_EQ(rows[1]["mode"], "scale-invariant silhouettes");
+    for (const nlohmann::json& row : rows) EXPECT_LE(row["error"]["rmse"].get<double>(), 2e-6);
+}
+
 TEST_F(BenchCommand, SaysWhatItDoesNotKnow) {
     expectRefused("bench bucky:4 --engines warp", {"--engines", "warp", "reference"});
     expectRefused("bench bucky:4 --tf shiny", {"--tf", "shiny", "smooth"});

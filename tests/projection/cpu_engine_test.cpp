@@ -19,21 +19,13 @@
 #include <projection/order/exact_repair.h>
 #include <projection/reference/reference_ray_caster.h>
 #include <tests/support/analytic_scenes.h>
+#include <tests/support/cpu_pictures.h>
 #include <tests/support/engine_pictures.h>
 
 namespace tetralux::projection {
 namespace {
 
 using namespace tetralux::test;
-
-Image cpuImage(const Scene& scene, const Camera& camera, FrameReport& report, const CpuSkips& skips = {}) {
-    return makeCpuEngineWith(scene, skips)->render(camera, report);
-}
-
-Image cpuImage(const Scene& scene, const Camera& camera, const CpuSkips& skips = {}) {
-    FrameReport report;
-    return cpuImage(scene, camera, report, skips);
-}
 
 // Float: rmse up to 3e-7, max up to 2.1e-5 were seen over all functions, modes and views below.
 constexpr test::EngineThreshold floatThreshold{2e-6, 1e-4};
@@ -42,15 +34,6 @@ constexpr test::EngineThreshold silhouetteThreshold{4e-5, 3e-3};
 
 void expectLikeReference(const Scene& scene, const Camera& camera, test::EngineThreshold threshold) {
     test::expectLike(test::referenceThatShows(scene, camera), scene, camera, {"cpu", "auto"}, threshold);
-}
-
-Camera wholeView(const mesh::ScalarMesh& m, int width = 52, int height = 45) {
-    Camera camera;
-    camera.width = width;
-    camera.height = height;
-    camera.target = m.bounds.centre();
-    camera.eye = threeQuarterEye(m.bounds, camera);
-    return camera;
 }
 
 preint::TransferFunction functionOf(const std::string& name, double low, double high, double extent) {
@@ -220,16 +203,6 @@ TEST(CpuEngine, FunctionsOfManyNodes) {
             }
 }
 
-/// The kernels for common lights and silhouettes against the general one.
-void expectLikeGeneral(const Scene& scene, const Camera& camera, test::EngineThreshold threshold,
-                       const std::string& what) {
-    const ImageDifference difference =
-        compareImages(cpuImage(scene, camera), cpuImage(scene, camera, {.quickLooks = false}));
-    EXPECT_LE(difference.rmse, threshold.rmse) << what;
-    EXPECT_LE(difference.max, threshold.max) << what;
-    EXPECT_GT(difference.max, 0.0) << what << ": the same kernel drew both";
-}
-
 TEST(CpuEngine, QuickLooksAreTheGeneralOnes) {
     for (int what = 0; what < 64; ++what) {
         Scene scene = fieldScene("bucky", (what & 1) != 0 ? "peaks" : "smooth",
@@ -286,28 +259,6 @@ TEST(CpuEngine, LampsAreTheGeneralLight) {
         if ((what & 8) != 0) camera.orthographicHeight = 1.6 * scene.mesh->bounds.diagonal();
         expectLikeGeneral(scene, camera, lookThreshold, std::to_string(what));
     }
-}
-
-// Cells of a hundred pixels, seen from near by: where the polynomial for an isosurface's opacity over a cell
-// (cpu_peak_look.h) would not hold, something else must be taken.
-TEST(CpuEngine, SilhouettesOfIsosurfacesInWideCells) {
-    for (int n : {3, 5, 9})
-        for (double opacity : {0.02, 0.6, 1.0}) {
-            Scene scene = sceneOf(
-                jitteredBoxMesh(n, 0.2, 7,
-                                [](const glm::dvec3& p) { return glm::dot(p - glm::dvec3(0.5), p - glm::dvec3(0.5)); }),
-                constantFunction(0.0), Mode::ScaleInvariant);
-            scene.transferFunction.isosurfaces = {{0.09, opacity, {1, 0.4, 0.1}}, {0.3, 0.3 * opacity, {0, 0.4, 1}}};
-            scene.settings.shading.silhouette = true;
-            for (double fov : {30.0, 100.0}) {
-                Camera camera = cameraAt({1.2, 0.9, 1.1});
-                camera.width = camera.height = 160;
-                camera.fovDegrees = fov;
-                // not the reference: whether float meets a surface in this cell or its neighbour, a thousandth of its
-                // slope apart, decides single pixels
-                expectLikeGeneral(scene, camera, {4e-6, 4e-6}, fmt::format("{} {} {}", n, opacity, fov));
-            }
-        }
 }
 
 TEST(CpuEngine, RandomMeshesNeedNoCertificate) {

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// Pictures of the tile engine, also with shortcuts switched off.
+#pragma once
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <projection/camera.h>
+#include <projection/cpu/cpu_engine.h>
+#include <projection/image/image.h>
+#include <projection/scene.h>
+#include <tests/support/engine_pictures.h>
+
+namespace tetralux::test {
+
+inline projection::Image cpuImage(const projection::Scene& scene, const projection::Camera& camera,
+                                  projection::FrameReport& report, const projection::CpuSkips& skips = {}) {
+    return projection::makeCpuEngineWith(scene, skips)->render(camera, report);
+}
+
+inline projection::Image cpuImage(const projection::Scene& scene, const projection::Camera& camera,
+                                  const projection::CpuSkips& skips = {}) {
+    projection::FrameReport report;
+    return cpuImage(scene, camera, report, skips);
+}
+
+inline projection::Camera wholeView(const mesh::ScalarMesh& m, int width = 52, int height = 45) {
+    projection::Camera camera;
+    camera.width = width;
+    camera.height = height;
+    camera.target = m.bounds.centre();
+    camera.eye = projection::threeQuarterEye(m.bounds, camera);
+    return camera;
+}
+
+/// The kernels for common lights and silhouettes against the general one.
+inline void expectLikeGeneral(const projection::Scene& scene, const projection::Camera& camera,
+                              EngineThreshold threshold, const std::string& what) {
+    const projection::ImageDifference difference =
+        projection::compareImages(cpuImage(scene, camera), cpuImage(scene, camera, {.quickLooks = false}));
+    EXPECT_LE(difference.rmse, threshold.rmse) << what;
+    EXPECT_LE(difference.max, threshold.max) << what;
+    EXPECT_GT(difference.max, 0.0) << what << ": the same kernel drew both";
+}
+
+}  // namespace tetralux::test

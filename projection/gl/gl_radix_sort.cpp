@@ -50,11 +50,10 @@ void GlRadixSort::sortBits(GLuint plan, std::size_t sortGroups, GLuint keyed, GL
 }
 
 void GlRadixSort::sort(GLuint plan, std::size_t sortGroups, std::size_t settleGroups, GLuint keyed, GLuint scratch,
-                       GLuint keyPlanes, const glm::dvec4& eye, bool checkedLater) const {
+                       GLuint keyPlanes, const glm::dvec4& eye) const {
     sortBits(plan, sortGroups, keyed, scratch, keyBits);
     settle_.use();
     settle_.set("keyEye", eye);
-    settle_.set("checkedLater", std::size_t{checkedLater});
     bindStorage(gl_, {plan, keyed, keyPlanes});
     settle_.runIndirect(settleGroups);
 }

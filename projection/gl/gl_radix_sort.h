@@ -20,10 +20,9 @@ public:
     GlRadixSort(const GlFunctions& gl, std::size_t cells);
 
     /// `plan`, bound as the source of indirect commands, has its dispatches at these bytes. `keyed` and `scratch` hold
-    /// pairs of key and cell; the result is in `keyed`. `checkedLater`: whether all relations are
-    /// (gl_order_check.comp), so that long runs of equal keys may stay unsettled.
+    /// pairs of key and cell; the result is in `keyed`.
     void sort(GLuint plan, std::size_t sortGroups, std::size_t settleGroups, GLuint keyed, GLuint scratch,
-              GLuint keyPlanes, const glm::dvec4& eye, bool checkedLater) const;
+              GLuint keyPlanes, const glm::dvec4& eye) const;
 
     /// The same for any pairs, by the lower `bits` bits of their first number, in as many passes as these ask for, an
     /// even number. Equal ones stay in their order.

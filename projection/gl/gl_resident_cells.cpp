@@ -218,7 +218,7 @@ std::size_t GlResidentCells::prepare(const CameraFrame& frame, const std::vector
     select(kernel, frame, order == nullptr ? visible_.name() : order_->name(), count);
     if (keys_ != nullptr)
         sort_.sort(plan_.name(), offsetof(PlanHead, sortGroups), offsetof(PlanHead, settleGroups), keyed_.name(),
-                   scratch_.name(), keyPlanes_.name(), keys_->eye(frame), checks_);
+                   scratch_.name(), keyPlanes_.name(), keys_->eye(frame));
     if (checks_) check(kernel);
     return count;
 }

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Puts each run of cells with equal whole-number keys in the order of their keys as doubles (key_sort.cpp). A run that is too long for one lane
-// stays as it is where the order is checked afterwards (a layer of a grid that is seen along an axis: none of its cells lies before another), else it
-// leaves the frame to the processor.
+// leaves the frame to the processor: so does a layer of a grid that is seen along an axis without perspective. (Checking relations afterwards would not
+// do, since cells that are not drawn may stand between two that are.)
 layout(std430, binding = 1) buffer Keyed { uvec2 keyed[]; };
 layout(std430, binding = 2) readonly buffer KeyPlanes { dvec4 keyPlanes[]; };
 
 uniform dvec4 keyEye;
-uniform uint checkedLater;
 
 const uint longestRun = 64;
 
@@ -25,7 +24,7 @@ void main() {
         ++end;
     }
     if (end - begin > longestRun) {
-        if (checkedLater == 0) plan.unsettled = 1;
+        plan.unsettled = 1;
         return;
     }
     for (uint i = begin + 1; i < end; ++i) {

@@ -69,7 +69,10 @@ inline CellSoup cubeGrid(int n, unsigned seed, const std::function<glm::dvec3(co
     std::shuffle(number.begin(), number.end(), std::mt19937(seed));
     CellSoup soup;
     soup.points.resize(number.size());
-    const auto at = [&](int i, int j, int k) { return number[static_cast<std::size_t>(i + edge * (j + edge * k))]; };
+    const auto at = [&](int i, int j, int k) {
+        const int place = i + edge * (j + edge * k);
+        return number[static_cast<std::size_t>(place)];
+    };
     for (int k = 0; k < edge; ++k) {
         for (int j = 0; j < edge; ++j) {
             for (int i = 0; i < edge; ++i) {
@@ -131,7 +134,7 @@ inline std::string errorOf(const std::function<void()>& action) {
     try {
         action();
     } catch (const std::runtime_error& error) {
-        const std::string text = error.what();
+        std::string text = error.what();
         EXPECT_EQ(text.find('\n'), std::string::npos) << text;
         return text;
     }

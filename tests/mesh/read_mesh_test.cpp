@@ -287,7 +287,7 @@ TEST(ReadVtk, OpenFoamCaseByFolderOrFile) {
 
 TEST(ReadRaw, SizeFromTheNameOrBehindIt) {
     const TemporaryFolder folder;
-    std::string bytes(2 * 3 * 4, '\0');
+    std::string bytes(24, '\0');  // 2 × 3 × 4
     for (std::size_t i = 0; i < bytes.size(); ++i) {
         bytes[i] = static_cast<char>(10 * i);
     }

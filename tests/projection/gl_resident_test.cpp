@@ -109,17 +109,6 @@ TEST(Resident, TiesAreSettled) {
     }
 }
 
-// Along an axis all cells of a grid's layer have one key, more than one lane of the GPU settles; none lies before
-// another.
-TEST(Resident, LayersOfAGridStayOnTheGpu) {
-    const Scene scene = sceneOf(boxMesh(24, waves), smoothFunction(0.1, 0.9));
-    for (const glm::dvec3& eye : {glm::dvec3(0.5, 0.5, 3), glm::dvec3(3, 0.5, 0.5)}) {
-        Camera camera = cameraAt(eye);
-        camera.orthographicHeight = 1.2;
-        expectSame(scene, {camera});
-    }
-}
-
 // Keys that are no visibility order are found out: those of centroids, of a mesh whose cells differ in shape.
 TEST(Resident, BrokenRelationsAreNoticed) {
     const mesh::ScalarMesh m = jitteredBoxMesh(7, 0.1, 5, waves);

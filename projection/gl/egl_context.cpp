@@ -19,6 +19,7 @@ namespace {
 
 struct EglFunctions {
     SharedLibrary library{"libEGL.so.1"};
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a name that is declared stands without
 #define TETRALUX_EGL_FUNCTION(name) decltype(::egl##name)* name = library.function<decltype(::egl##name)>("egl" #name)
     TETRALUX_EGL_FUNCTION(GetProcAddress);
     TETRALUX_EGL_FUNCTION(QueryString);

@@ -11,7 +11,9 @@
 #include <glm/matrix.hpp>
 
 #include <mesh/point_cells.h>
+#include <shading/cut_disc.h>
 #include <shading/level_set_points.h>
+#include <shading/mesh_border.h>
 
 namespace tetralux::shading {
 
@@ -26,14 +28,65 @@ double meanEdge(const mesh::ScalarMesh& mesh) {
     return mesh.cells.empty() ? 0.0 : sum / (6.0 * static_cast<double>(mesh.cells.size()));
 }
 
+/// An axis that `normal` does not lie along.
+glm::dvec3 besides(const glm::dvec3& normal) {
+    return std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+}
+
+/// uᵀ T v.
+double product(const Tensor& tensor, const glm::dvec3& u, const glm::dvec3& v) {
+    return tensor[0] * u.x * v.x + tensor[1] * u.y * v.y + tensor[2] * u.z * v.z + tensor[3] * (u.x * v.y + u.y * v.x) +
+           tensor[4] * (u.x * v.z + u.z * v.x) + tensor[5] * (u.y * v.z + u.z * v.y);
+}
+
+Tensor tensorOf(const glm::dmat3& matrix) {
+    return {matrix[0][0], matrix[1][1], matrix[2][2], matrix[0][1], matrix[0][2], matrix[1][2]};
+}
+
 /// (I − n nᵀ) M (I − n nᵀ) / Σ w.
 Tensor inTangentPlane(const PointMoments& moments, const glm::dvec3& normal) {
     if (!(moments.weight > 0)) return Tensor{};
     const glm::dmat3 matrix(moments.xx, moments.xy, moments.xz, moments.xy, moments.yy, moments.yz, moments.xz,
                             moments.yz, moments.zz);
     const glm::dmat3 across = glm::dmat3(1.0) - glm::outerProduct(normal, normal);
-    const glm::dmat3 found = across * matrix * across / moments.weight;
-    return {found[0][0], found[1][1], found[2][2], found[0][1], found[0][2], found[1][2]};
+    return tensorOf(across * matrix * across / moments.weight);
+}
+
+/// Radii: where the scalars that count fill more of the ball its level sets are taken to be flat.
+constexpr double thickest = 0.5;
+
+/// What is needed to complete the moments of points near the mesh's border.
+struct Surroundings {
+    const mesh::ScalarMesh& mesh;
+    const LevelSetPoints& points;
+    const MeshBorder& border;
+    double perRadius;  ///< intervals per radius, for a gradient of one range per diagonal
+};
+
+/// Of a point near the border: `found` as it would be if the mesh went on.
+Tensor completedAt(const Surroundings& around, mesh::PointIndex point, const glm::dvec3& gradient,
+                   const Tensor& found) {
+    const glm::dvec3& place = around.mesh.positions[point];
+    const double magnitude = glm::length(gradient), slope = magnitude * around.perRadius;
+    BentDisc disc;
+    disc.z = gradient / magnitude;
+    disc.x = glm::normalize(glm::cross(besides(disc.z), disc.z));
+    disc.y = glm::cross(disc.z, disc.x);
+    disc.thickness = std::min(1 / slope, 1.0);
+    if (disc.thickness < thickest) {
+        const Bend bend = around.points.bendNear(place, around.mesh.scalars[point], {disc.x, disc.y, disc.z}, slope);
+        disc.xx = bend.xx;
+        disc.yy = bend.yy;
+        disc.xy = bend.xy;
+    }
+    const std::optional<SeenDisc> seen = around.border.cut(place, point, disc);
+    if (!seen) return found;
+    const DiscMoments whole = completed(
+        *seen, {product(found, disc.x, disc.x), product(found, disc.y, disc.y), product(found, disc.x, disc.y)});
+    const glm::dmat3 matrix = whole.xx * glm::outerProduct(disc.x, disc.x) +
+                              whole.yy * glm::outerProduct(disc.y, disc.y) +
+                              whole.xy * (glm::outerProduct(disc.x, disc.y) + glm::outerProduct(disc.y, disc.x));
+    return tensorOf(matrix);
 }
 
 /// Every tensor becomes the mean over the corners of the cells around its point.
@@ -63,12 +116,18 @@ std::vector<Tensor> levelSetTensors(const mesh::ScalarMesh& mesh, const std::vec
     const double interval = settings.interval * (mesh.scalarMax - mesh.scalarMin);
     if (mesh.association == mesh::Association::Cell || !(radius > 0) || !(interval > 0)) return tensors;
     const LevelSetPoints points(mesh, radius, interval, settings.samples);
+    const MeshBorder border(mesh, radius);
+    const Surroundings around{mesh, points, border,
+                              radius / mesh.bounds.diagonal() * ((mesh.scalarMax - mesh.scalarMin) / interval)};
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tensors.size(), 64), [&](const auto& range) {
         for (std::size_t point = range.begin(); point != range.end(); ++point) {
             const double magnitude = glm::length(gradients[point]);
             if (!(magnitude > 0)) continue;
-            tensors[point] =
-                inTangentPlane(points.near(mesh.positions[point], mesh.scalars[point]), gradients[point] / magnitude);
+            const PointMoments moments = points.near(mesh.positions[point], mesh.scalars[point]);
+            tensors[point] = inTangentPlane(moments, gradients[point] / magnitude);
+            if (moments.weight > 0 && border.isNear(mesh.positions[point]))
+                tensors[point] =
+                    completedAt(around, static_cast<mesh::PointIndex>(point), gradients[point], tensors[point]);
         }
     });
     for (int i = 0; i < settings.smoothing; ++i) tensors = smoothed(mesh, tensors);
@@ -76,15 +135,10 @@ std::vector<Tensor> levelSetTensors(const mesh::ScalarMesh& mesh, const std::vec
 }
 
 Anisotropy anisotropyAcross(const Tensor& tensor, const glm::dvec3& normal) {
-    const glm::dvec3 axis = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 a = glm::normalize(glm::cross(normal, axis)), b = glm::cross(normal, a);
-    const auto product = [&](const glm::dvec3& u, const glm::dvec3& v) {
-        return tensor[0] * u.x * v.x + tensor[1] * u.y * v.y + tensor[2] * u.z * v.z +
-               tensor[3] * (u.x * v.y + u.y * v.x) + tensor[4] * (u.x * v.z + u.z * v.x) +
-               tensor[5] * (u.y * v.z + u.z * v.y);
-    };
-    const double mean = 0.5 * (product(a, a) + product(b, b)), half = 0.5 * (product(a, a) - product(b, b));
-    const double root = std::hypot(half, product(a, b)), angle = 0.5 * std::atan2(product(a, b), half);
+    const glm::dvec3 a = glm::normalize(glm::cross(normal, besides(normal))), b = glm::cross(normal, a);
+    const double aa = product(tensor, a, a), bb = product(tensor, b, b), ab = product(tensor, a, b);
+    const double mean = 0.5 * (aa + bb), half = 0.5 * (aa - bb);
+    const double root = std::hypot(half, ab), angle = 0.5 * std::atan2(ab, half);
     return {mean - root, mean + root, std::cos(angle) * a + std::sin(angle) * b};
 }
 

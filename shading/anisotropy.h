@@ -30,8 +30,14 @@ using Tensor = std::array<double, 6>;
 /// exact for quadratics (ratios within 0.002 of those of 64 points on the level sets of the tests). Found in float:
 /// within 2e-6 of the same sum in double. The larger eigenvalue in the tangent plane is
 /// called λ₂: its direction is that along which the level set extends farther, and λ₂/λ₁ ≥ 1 is 1 where it extends
-/// alike. Moments about v rather than about the mean leave them alike at the mesh's boundary too. Zero for cell data
-/// and where there is no gradient.
+/// alike. Zero for cell data and where there is no gradient.
+///
+/// Where the mesh's border cuts the level set off, the sums are completed to what they would be if the mesh went on
+/// (shading/cut_disc.h): as they stand, a plane near a face of the mesh would have a ratio of 1.45, near an edge of 4,
+/// and a cylinder near its end the direction across it. On spheres that come near faces, edges and corners ratios stay
+/// below 1.1; cylinders that end at a face keep their ratio within 5 % and, but for the points of the border, whose
+/// gradients are one-sided, their direction within 1°. Where an edge of the mesh lets less than half a disc be seen,
+/// what is not seen is taken to be round.
 std::vector<Tensor> levelSetTensors(const mesh::ScalarMesh& mesh, const std::vector<glm::dvec3>& gradients,
                                     const AnisotropySettings& settings);
 

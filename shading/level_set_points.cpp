@@ -9,8 +9,11 @@
 #include <tbb/parallel_for.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 #include <mesh/vertex_buckets.h>
+#include <shading/widest.h>
 
 namespace tetralux::shading {
 
@@ -66,16 +69,19 @@ std::vector<Weights> fillingPoints(int count) {
 }
 
 LevelSetPoints::LevelSetPoints(const mesh::ScalarMesh& mesh, double radius, double interval, int pointsPerCell)
-    : perRadius_(1 / radius), perInterval_(1 / interval), origin_(mesh.bounds.low) {
+    : cubes_(mesh, radius), perRadius_(1 / radius), perInterval_(1 / interval) {
     scalarOrigin_ = 0.5 * mesh.scalarMin + 0.5 * mesh.scalarMax;
-    layCubes(mesh);
+    layPoints(mesh, pointsPerCell);
+}
+
+void LevelSetPoints::layPoints(const mesh::ScalarMesh& mesh, int pointsPerCell) {
     const std::vector<Weights> filling = fillingPoints(pointsPerCell);
-    const std::size_t perCell = filling.size(), count = mesh.cells.size() * perCell;
+    const std::size_t perCell = filling.size();
     const auto placeOfItem = [&](std::size_t item) {
         const mesh::Tetrahedron& corners = mesh.cells[item / perCell];
         const Weights& w = filling[item % perCell];
         glm::dvec3 sum(0);
-        for (std::size_t k = 0; k < 4; ++k) sum += w[k] * ((mesh.positions[corners[k]] - origin_) * perRadius_);
+        for (std::size_t k = 0; k < 4; ++k) sum += w[k] * cubes_.fromOrigin(mesh.positions[corners[k]]);
         return sum;
     };
     const auto scalarOfItem = [&](std::size_t item) {
@@ -85,107 +91,175 @@ LevelSetPoints::LevelSetPoints(const mesh::ScalarMesh& mesh, double radius, doub
             sum += filling[item % perCell][k] * ((mesh.scalars[corners[k]] - scalarOrigin_) * perInterval_);
         return static_cast<float>(sum);
     };
-    const std::size_t cubes = counts_[0] * counts_[1] * counts_[2];
     const mesh::VertexBuckets<std::uint64_t> buckets(
-        count, cubes, [&](std::size_t item) { return cubeOf(placeOf(placeOfItem(item))); });
+        mesh.cells.size() * perCell, cubes_.count(),
+        [&](std::size_t item) { return cubes_.cubeOf(cubes_.placeOf(placeOfItem(item))); });
     const std::vector<float> areas = levelSetAreas(mesh, perRadius_, perInterval_);
 
-    starts_.resize(cubes + 1);
-    for (auto* values : {&x_, &y_, &z_, &scalars_, &areas_}) values->resize(count);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cubes, 16), [&](const auto& range) {
+    starts_.assign(cubes_.count() + 1, 0);
+    for (std::size_t cube = 0; cube < cubes_.count(); ++cube)
+        starts_[cube + 1] = starts_[cube] + (buckets.end(cube) - buckets.begin(cube) + blockSize - 1) / blockSize;
+    heads_.resize(starts_.back());
+    for (auto* values : {&x_, &y_, &z_, &scalars_, &areas_}) values->resize(starts_.back() * blockSize);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cubes_.count(), 16), [&](const auto& range) {
         std::vector<Point> points;
         for (std::size_t cube = range.begin(); cube != range.end(); ++cube) {
-            const std::size_t first = buckets.begin(cube), last = buckets.end(cube);
             points.clear();
-            for (std::size_t slot = first; slot < last; ++slot) {
+            for (std::size_t slot = buckets.begin(cube); slot < buckets.end(cube); ++slot) {
                 const std::uint64_t item = buckets.item(slot);
                 const glm::dvec3 from = placeOfItem(item);
-                const Place place = placeOf(from);
-                const glm::vec3 at(from - side_ * glm::dvec3(place[0], place[1], place[2]));
+                const glm::vec3 at(from - cubes_.corner(cubes_.placeOf(from)));
                 points.push_back({scalarOfItem(item), at.x, at.y, at.z, areas[item / perCell], item});
             }
             std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) {
                 return a.scalar != b.scalar ? a.scalar < b.scalar : a.item < b.item;
             });
+            if (points.empty()) continue;
+            Point none = points.back();
+            none.area = 0;
+            points.resize((starts_[cube + 1] - starts_[cube]) * blockSize, none);
+            const std::size_t first = starts_[cube] * blockSize;
             for (std::size_t i = 0; i < points.size(); ++i) {
                 x_[first + i] = points[i].x;
                 y_[first + i] = points[i].y;
                 z_[first + i] = points[i].z;
                 scalars_[first + i] = points[i].scalar;
                 areas_[first + i] = points[i].area;
+                if (i % blockSize == 0) heads_[starts_[cube] + i / blockSize] = points[i].scalar;
             }
-            starts_[cube + 1] = last;
         }
     });
 }
 
-/// Half a radius, so that the cubes about a ball are not much more than the ball; more where that would be more cubes
-/// than cells (a mesh with a few fine parts).
-void LevelSetPoints::layCubes(const mesh::ScalarMesh& mesh) {
-    const glm::dvec3 size = (mesh.bounds.high - mesh.bounds.low) * perRadius_;
-    const double most = std::max<double>(64.0, static_cast<double>(mesh.cells.size()));
-    const auto along = [&](int axis) { return std::floor(size[axis] / side_) + 1; };
-    while (along(0) * along(1) * along(2) > most) side_ *= 1.25;
-    for (int axis = 0; axis < 3; ++axis)
-        counts_[static_cast<std::size_t>(axis)] = static_cast<std::size_t>(along(axis));
-}
+/// Some blocks of one cube, and where in it the centre is.
+struct LevelSetPoints::Run {
+    std::size_t first, count;  ///< points
+    float x, y, z, scalar;
+};
 
-/// `fromOrigin` in radii; what lies outside belongs to the cube nearest to it.
-LevelSetPoints::Place LevelSetPoints::placeOf(const glm::dvec3& fromOrigin) const {
-    Place place;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double at = std::floor(fromOrigin[static_cast<int>(axis)] / side_);
-        place[axis] = static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(counts_[axis] - 1)));
-    }
-    return place;
-}
-
-PointMoments LevelSetPoints::near(const glm::dvec3& centre, double scalar) const {
-    const glm::dvec3 from = (centre - origin_) * perRadius_;
+/// Calls `use` for the cubes within the radius, or for those of them that are black on a chessboard: all blocks with
+/// points whose scalar is within the interval.
+template <bool EverySecond, class Use>
+void LevelSetPoints::forRuns(const glm::dvec3& centre, double scalar, float interval, const Use& use) const {
+    const glm::dvec3 from = cubes_.fromOrigin(centre);
     const auto step = static_cast<float>((scalar - scalarOrigin_) * perInterval_);
-    const Place low = placeOf(from - 1.0), high = placeOf(from + 1.0);
-    PointMoments sums;
-    for (std::size_t k = low[2]; k <= high[2]; ++k)
-        for (std::size_t j = low[1]; j <= high[1]; ++j)
-            for (std::size_t i = low[0]; i <= high[0]; ++i) {
-                const glm::dvec3 fromCube = from - side_ * glm::dvec3(i, j, k);
-                const glm::dvec3 beside = glm::max(glm::max(-fromCube, fromCube - side_), glm::dvec3(0));
-                if (glm::dot(beside, beside) < 1) addCube(cubeOf({i, j, k}), fromCube, step, sums);
+    const float least = step - interval, most = step + interval;
+    cubes_.forRows(from - 1.0, from + 1.0, [&](BallCubes::Place place, const BallCubes::Place& last) {
+        for (; place[0] <= last[0]; ++place[0]) {
+            if (EverySecond && (place[0] + place[1] + place[2]) % 2 != 0) continue;
+            const glm::dvec3 fromCube = from - cubes_.corner(place);
+            const glm::dvec3 beside = glm::max(glm::max(-fromCube, fromCube - cubes_.side()), glm::dvec3(0));
+            if (!(glm::dot(beside, beside) < 1)) continue;
+            const std::size_t cube = cubes_.cubeOf(place), begin = starts_[cube], end = starts_[cube + 1];
+            const float* heads = heads_.data();
+            int below = 0, upTo = 0;
+#pragma omp simd reduction(+ : below, upTo)
+            for (std::size_t i = begin; i < end; ++i) {
+                below += heads[i] < least ? 1 : 0;
+                upTo += heads[i] <= most ? 1 : 0;
             }
+            const int skipped = std::max(below - 1, 0);
+            if (upTo == skipped) continue;
+            use(Run{(begin + static_cast<std::size_t>(skipped)) * blockSize,
+                    static_cast<std::size_t>(upTo - skipped) * blockSize, static_cast<float>(fromCube.x),
+                    static_cast<float>(fromCube.y), static_cast<float>(fromCube.z), step});
+        }
+    });
+}
+
+inline PointMoments LevelSetPoints::nearHere(const glm::dvec3& centre, double scalar) const {
+    PointMoments sums;
+    forRuns<false>(centre, scalar, 1.0f, [&](const Run& run) {
+        const float *xs = x_.data() + run.first, *ys = y_.data() + run.first, *zs = z_.data() + run.first;
+        const float *scalars = scalars_.data() + run.first, *areas = areas_.data() + run.first;
+        float weight = 0, xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
+#pragma omp simd reduction(+ : weight, xx, yy, zz, xy, xz, yz)
+        for (std::size_t i = 0; i < run.count; ++i) {
+            const float x = xs[i] - run.x, y = ys[i] - run.y, z = zs[i] - run.z, apart = scalars[i] - run.scalar;
+            const float inside = 1.0f - (x * x + y * y + z * z), alike = 1.0f - apart * apart;
+            const float w = areas[i] * (inside > 0.0f ? inside : 0.0f) * (alike > 0.0f ? alike : 0.0f);
+            weight += w;
+            xx += w * x * x;
+            yy += w * y * y;
+            zz += w * z * z;
+            xy += w * x * y;
+            xz += w * x * z;
+            yz += w * y * z;
+        }
+        sums.weight += static_cast<double>(weight);
+        sums.xx += static_cast<double>(xx);
+        sums.yy += static_cast<double>(yy);
+        sums.zz += static_cast<double>(zz);
+        sums.xy += static_cast<double>(xy);
+        sums.xz += static_cast<double>(xz);
+        sums.yz += static_cast<double>(yz);
+    });
     return sums;
 }
 
-void LevelSetPoints::addCube(std::size_t cube, const glm::dvec3& centreFromCube, float scalar,
-                             PointMoments& sums) const {
-    const auto begin = scalars_.begin() + static_cast<std::ptrdiff_t>(starts_[cube]),
-               end = scalars_.begin() + static_cast<std::ptrdiff_t>(starts_[cube + 1]);
-    const auto from = std::lower_bound(begin, end, scalar - 1.0f), to = std::upper_bound(from, end, scalar + 1.0f);
-    const auto first = static_cast<std::size_t>(from - scalars_.begin());
-    const auto count = static_cast<std::size_t>(to - from);
-    const float *xs = x_.data() + first, *ys = y_.data() + first, *zs = z_.data() + first;
-    const float *scalars = scalars_.data() + first, *areas = areas_.data() + first;
-    const glm::vec3 centre(centreFromCube);
-    float weight = 0, xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
-#pragma omp simd reduction(+ : weight, xx, yy, zz, xy, xz, yz)
-    for (std::size_t i = 0; i < count; ++i) {
-        const float x = xs[i] - centre.x, y = ys[i] - centre.y, z = zs[i] - centre.z, apart = scalars[i] - scalar;
-        const float inside = 1.0f - (x * x + y * y + z * z), alike = 1.0f - apart * apart;
-        const float w = areas[i] * (inside > 0.0f ? inside : 0.0f) * (alike > 0.0f ? alike : 0.0f);
-        weight += w;
-        xx += w * x * x;
-        yy += w * y * y;
-        zz += w * z * z;
-        xy += w * x * y;
-        xz += w * x * z;
-        yz += w * y * z;
-    }
-    sums.weight += static_cast<double>(weight);
-    sums.xx += static_cast<double>(xx);
-    sums.yy += static_cast<double>(yy);
-    sums.zz += static_cast<double>(zz);
-    sums.xy += static_cast<double>(xy);
-    sums.xz += static_cast<double>(xz);
-    sums.yz += static_cast<double>(yz);
+inline Bend LevelSetPoints::bendHere(const glm::dvec3& centre, double scalar, const std::array<glm::dvec3, 3>& frame,
+                                     double slope) const {
+    constexpr float quarter = 0.25f, perQuarter = 4.0f;
+    const glm::vec3 a(frame[0]), b(frame[1]), c(frame[2]);
+    const auto perSlope = static_cast<float>(1 / slope);
+    glm::dmat3 matrix(0);
+    glm::dvec3 right(0);
+    double sum = 0;
+    forRuns<true>(centre, scalar, quarter, [&](const Run& run) {
+        const float *xs = x_.data() + run.first, *ys = y_.data() + run.first, *zs = z_.data() + run.first;
+        const float *scalars = scalars_.data() + run.first, *areas = areas_.data() + run.first;
+        float weight = 0, xxxx = 0, xxxy = 0, xxyy = 0, xyyy = 0, yyyy = 0, xxz = 0, xyz = 0, yyz = 0;
+#pragma omp simd reduction(+ : weight, xxxx, xxxy, xxyy, xyyy, yyyy, xxz, xyz, yyz)
+        for (std::size_t i = 0; i < run.count; ++i) {
+            const float dx = xs[i] - run.x, dy = ys[i] - run.y, dz = zs[i] - run.z;
+            const float apart = scalars[i] - run.scalar, share = apart * perQuarter;
+            const float x = dx * a.x + dy * a.y + dz * a.z, y = dx * b.x + dy * b.y + dz * b.z;
+            const float z = dx * c.x + dy * c.y + dz * c.z - apart * perSlope;
+            const float inside = 1.0f - (dx * dx + dy * dy + dz * dz), alike = 1.0f - share * share;
+            const float beside = 1.0f - 4.0f * z * z;  // other sheets of the level set do not count
+            const float w = areas[i] * (inside > 0.0f ? inside : 0.0f) * (alike > 0.0f ? alike : 0.0f) *
+                            (beside > 0.0f ? beside : 0.0f);
+            const float xx = x * x, xy = x * y, yy = y * y, wx = w * xx, wy = w * yy, wz = w * z;
+            weight += w;
+            xxxx += wx * xx;
+            xxxy += wx * xy;
+            xxyy += wx * yy;
+            xyyy += wy * xy;
+            yyyy += wy * yy;
+            xxz += wz * xx;
+            xyz += wz * xy;
+            yyz += wz * yy;
+        }
+        sum += static_cast<double>(weight);
+        matrix[0] += glm::dvec3(xxxx, xxyy, xxxy);
+        matrix[1] += glm::dvec3(xxyy, yyyy, xyyy);
+        matrix[2] += glm::dvec3(xxxy, xyyy, xxyy);
+        right += glm::dvec3(xxz, yyz, xyz);
+    });
+    if (!(sum > 0)) return {};
+    constexpr double ridge = 1e-3;  // of ρ⁴: where there are few points, a plane
+    for (int i = 0; i < 3; ++i) matrix[i][i] += ridge * sum;
+    const glm::dvec3 found = glm::inverse(matrix) * right;
+    const auto bounded = [](double bend) { return std::clamp(bend, -1.0, 1.0); };  // no circle within the ball
+    return {bounded(2 * found.x), bounded(2 * found.y), bounded(found.z)};
+}
+
+TETRALUX_WIDE PointMoments LevelSetPoints::nearWide(const glm::dvec3& centre, double scalar) const {
+    return nearHere(centre, scalar);
+}
+
+PointMoments LevelSetPoints::near(const glm::dvec3& centre, double scalar) const {
+    return hasWideVectors() ? nearWide(centre, scalar) : nearHere(centre, scalar);
+}
+
+TETRALUX_WIDE Bend LevelSetPoints::bendWide(const glm::dvec3& centre, double scalar,
+                                            const std::array<glm::dvec3, 3>& frame, double slope) const {
+    return bendHere(centre, scalar, frame, slope);
+}
+
+Bend LevelSetPoints::bendNear(const glm::dvec3& centre, double scalar, const std::array<glm::dvec3, 3>& frame,
+                              double slope) const {
+    return hasWideVectors() ? bendWide(centre, scalar, frame, slope) : bendHere(centre, scalar, frame, slope);
 }
 
 }  // namespace tetralux::shading

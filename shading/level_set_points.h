@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include <mesh/tet_mesh.h>
+#include <shading/ball_cubes.h>
 
 namespace tetralux::shading {
 
@@ -25,6 +26,11 @@ struct PointMoments {
     double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;  ///< Σ w·x·x …
 };
 
+/// How a level set bends away from its tangent plane: z = ½(xx·x² + 2·xy·xy + yy·y²), lengths in radii.
+struct Bend {
+    double xx = 0, yy = 0, xy = 0;
+};
+
 /// Every cell's filling points, in cubes of half a radius or more, in each cube by scalar.
 class LevelSetPoints {
 public:
@@ -36,20 +42,30 @@ public:
     /// but for the last sums: moments hold to some 1e-6 of their trace.
     PointMoments near(const glm::dvec3& centre, double scalar) const;
 
+    /// Fitted (least squares) to the points of near() in every second cube whose scalar is within a quarter of the
+    /// interval. `frame`: unit vectors x, y in the tangent plane and z along the gradient, along which the scalar rises
+    /// by `slope` intervals per radius.
+    Bend bendNear(const glm::dvec3& centre, double scalar, const std::array<glm::dvec3, 3>& frame, double slope) const;
+
 private:
-    using Place = std::array<std::size_t, 3>;
+    struct Run;
 
-    void layCubes(const mesh::ScalarMesh& mesh);
-    std::size_t cubeOf(const Place& place) const { return (place[2] * counts_[1] + place[1]) * counts_[0] + place[0]; }
-    Place placeOf(const glm::dvec3& fromOrigin) const;
-    void addCube(std::size_t cube, const glm::dvec3& centreFromCube, float scalar, PointMoments& sums) const;
+    template <bool EverySecond, class Use>
+    void forRuns(const glm::dvec3& centre, double scalar, float interval, const Use& use) const;
+    PointMoments nearHere(const glm::dvec3& centre, double scalar) const;
+    PointMoments nearWide(const glm::dvec3& centre, double scalar) const;
+    Bend bendHere(const glm::dvec3& centre, double scalar, const std::array<glm::dvec3, 3>& frame, double slope) const;
+    Bend bendWide(const glm::dvec3& centre, double scalar, const std::array<glm::dvec3, 3>& frame, double slope) const;
+    void layPoints(const mesh::ScalarMesh& mesh, int pointsPerCell);
 
+    /// Points of a cube are looked up and summed by blocks of this many; 0 areas fill the last.
+    static constexpr std::size_t blockSize = 8;
+
+    const BallCubes cubes_;
     const double perRadius_, perInterval_;
-    glm::dvec3 origin_{0};       ///< low corner of the first cube, mesh units
-    double scalarOrigin_ = 0.0;  ///< what float scalars count from
-    double side_ = 0.5;          ///< of a cube, in radii
-    Place counts_{1, 1, 1};
-    std::vector<std::size_t> starts_;  ///< per cube its first point, and the end
+    double scalarOrigin_ = 0.0;        ///< what float scalars count from
+    std::vector<std::size_t> starts_;  ///< per cube its first block, and the end
+    std::vector<float> heads_;         ///< per block its first scalar
     std::vector<float> x_, y_, z_;     ///< from the low corner of the cube, in radii
     std::vector<float> scalars_;       ///< from scalarOrigin_, in intervals
     std::vector<float> areas_;         ///< |∇s|·dV

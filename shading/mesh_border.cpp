@@ -206,20 +206,19 @@ bool MeshBorder::isNear(const glm::dvec3& place) const {
     const glm::dvec3 from = cubes_.fromOrigin(place);
     const glm::vec3 at(from);
     const double reach = 1 + largestFace();
-    float nearest = 1;  // > 0: none
+    int found = 0;
     cubes_.forRows(from - reach, from + reach, [&](const auto& first, const auto& last) {
         const std::size_t begin = starts_[cubes_.cubeOf(first)], end = starts_[cubes_.cubeOf(last) + 1];
         const float *xs = x_.data(), *ys = y_.data(), *zs = z_.data(), *sizes = size_.data();
-        float least = nearest;
-#pragma omp simd reduction(min : least)
+        int count = 0;
+#pragma omp simd reduction(+ : count)
         for (std::size_t i = begin; i < end; ++i) {
             const float x = xs[i] - at.x, y = ys[i] - at.y, z = zs[i] - at.z, span = 1.0f + sizes[i];
-            const float apart = x * x + y * y + z * z - span * span;
-            least = apart < least ? apart : least;
+            count += x * x + y * y + z * z < span * span ? 1 : 0;
         }
-        nearest = least;
+        found += count;
     });
-    return nearest < 0;
+    return found > 0;
 }
 
 std::optional<SeenDisc> MeshBorder::cut(const glm::dvec3& place, mesh::PointIndex point, const BentDisc& disc) const {

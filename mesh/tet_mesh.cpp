@@ -8,6 +8,7 @@
 #include <tbb/parallel_reduce.h>
 #include <glm/geometric.hpp>
 
+#include <mesh/cell_slope.h>
 #include <mesh/shared_mark.h>
 
 namespace tetralux::mesh {
@@ -57,20 +58,8 @@ BoundingBox usedBounds(const std::vector<glm::dvec3>& positions, const std::vect
 }
 
 glm::dvec3 cellGradient(const ScalarMesh& mesh, CellIndex cell) {
-    if (mesh.association == Association::Cell) {
-        return glm::dvec3(0.0);
-    }
-    const Tetrahedron& t = mesh.cells[cell];
-    const glm::dvec3 origin = mesh.positions[t[0]];
-    const glm::dvec3 b = mesh.positions[t[1]] - origin;
-    const glm::dvec3 c = mesh.positions[t[2]] - origin;
-    const glm::dvec3 d = mesh.positions[t[3]] - origin;
-    const double s0 = mesh.scalars[t[0]];
-    // The dual basis of the edges b, c, d: g·b = s1 − s0 and so on.
-    const glm::dvec3 bxc = glm::cross(b, c);
-    const glm::dvec3 sum = (mesh.scalars[t[1]] - s0) * glm::cross(c, d) + (mesh.scalars[t[2]] - s0) * glm::cross(d, b) +
-                           (mesh.scalars[t[3]] - s0) * bxc;
-    return sum / glm::dot(bxc, d);
+    const CellSlope slope = cellSlope(mesh, cell);
+    return slope.magnitude * slope.normal;
 }
 
 }  // namespace tetralux::mesh

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <projection/cells/cell_setup.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
+#include <mesh/cell_slope.h>
 #include <projection/cells/projected_cell.h>
 
 namespace tetralux::projection {
@@ -61,12 +64,12 @@ SkipReason coveredPixels(const std::array<glm::dvec3, 4>& v, const CameraFrame& 
 }
 
 CellGradient unitGradient(const mesh::ScalarMesh& mesh, const SceneUnits& units, mesh::CellIndex cell) {
-    // in scene units first: |g|² of a mesh of size 1e-15 leaves the range of double otherwise
-    const glm::dvec3 g = mesh::cellGradient(mesh, cell) / units.scalarScale * units.length;
-    const double magnitude = glm::length(g);
-    const glm::dvec3 normal = magnitude > 0 ? g / magnitude : glm::dvec3(0);
-    return {{static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z)},
-            static_cast<float>(magnitude)};
+    const mesh::CellSlope slope = mesh::cellSlope(mesh, cell);
+    constexpr float least = std::numeric_limits<float>::min();  // what is a gradient in double is one in float
+    const auto magnitude = static_cast<float>(slope.magnitude / units.scalarScale * units.length);
+    return {
+        {static_cast<float>(slope.normal.x), static_cast<float>(slope.normal.y), static_cast<float>(slope.normal.z)},
+        slope.any() ? std::max(magnitude, least) : 0.0f};
 }
 
 CellProjector::CellProjector(const mesh::ScalarMesh& mesh, const SceneUnits& units, const CameraFrame& frame)
@@ -117,9 +120,13 @@ CellRecord CellProjector::record(mesh::CellIndex cell) const {
     const SortedCell sorted(mesh_.cells[cell], points_, frame_.orthographic);
     const CellView view = viewOf(frame_);
     const single_cell::CellReference reference = single_cell::referenceOfCell(sorted.forms, sorted.corners, view);
-    double s[4];
-    for (std::size_t k = 0; k < 4; ++k) s[k] = units_.toUnit(mesh_.scalarAt(cell, static_cast<int>(sorted.order[k])));
-    const auto projected = single_cell::projectCell(sorted.forms, reference, s, frame_.orthographic);
+    double raw[4], s[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+        raw[k] = mesh_.scalarAt(cell, static_cast<int>(sorted.order[k]));
+        s[k] = units_.toUnit(raw[k]);
+    }
+    const Triple rise = single_cell::visibleRise(single_cell::riseOf(raw), units_.scalarScale);
+    const auto projected = single_cell::projectCell(sorted.forms, reference, s, rise, frame_.orthographic);
 
     std::array<float, sizeof(CellRecord) / sizeof(float)> values;
     int frontMask = 0;

@@ -87,8 +87,23 @@ struct ProjectedCell {
     Triple gradient;  // of the scalar in the space of CameraPoint
 };
 
+// What corners 1, 2 and 3 have more than corner 0.
+TETRALUX_CELL_FUNCTION Triple riseOf(const wide s[4]) { return Triple(s[1] - s[0], s[2] - s[0], s[3] - s[0]); }
+
+// A rise in the field's own units to scene units. Differences of the field's numbers are exact where they nearly agree; those of scene scalars
+// are not. Which way the scalar rises counts for silhouettes and light however little it does, so a rise below `leastRise` is made as large as
+// that: scalars do not change by it (they are kept within the cell's own), and float holds it. No rise stays none.
+TETRALUX_CELL_FUNCTION Triple visibleRise(TETRALUX_CELL_IN(Triple) rise, wide scalarScale) {
+    wide least = wide(leastRise);
+    wide x = rise.x / scalarScale, y = rise.y / scalarScale, z = rise.z / scalarScale;
+    wide most = max(max(abs(x), abs(y)), abs(z));
+    wide factor = select(most < least, least / max(most, wide(leastDouble)), wide(1.0));
+    return Triple(x * factor, y * factor, z * factor);
+}
+
+// `rise`: riseOf(s), or what visibleRise has made of the field's own.
 TETRALUX_CELL_FUNCTION ProjectedCell projectCell(TETRALUX_CELL_IN(CellForms) forms, TETRALUX_CELL_IN(CellReference) reference, const wide s[4],
-                                                 bool orthographic) {
+                                                 TETRALUX_CELL_IN(Triple) rise, bool orthographic) {
     ProjectedCell cell;
     wide size = abs(forms.determinant);
     wide lateral = orthographic ? wide(1.0) : reference.depth;
@@ -111,10 +126,9 @@ TETRALUX_CELL_FUNCTION ProjectedCell projectCell(TETRALUX_CELL_IN(CellForms) for
     }
     // from differences, so that a constant scalar has exactly no gradient
     wide perDeterminant = wide(1.0) / copySign(max(size, wide(leastDeterminant)), forms.determinant);
-    cell.gradient = ((s[1] - s[0]) * perDeterminant) * forms.normal[1] + ((s[2] - s[0]) * perDeterminant) * forms.normal[2] +
-                    ((s[3] - s[0]) * perDeterminant) * forms.normal[3];
-    cell.scalar = s[0] + (s[1] - s[0]) * reference.coordinate[1] + (s[2] - s[0]) * reference.coordinate[2] +
-                  (s[3] - s[0]) * reference.coordinate[3];
+    cell.gradient = (rise.x * perDeterminant) * forms.normal[1] + (rise.y * perDeterminant) * forms.normal[2] +
+                    (rise.z * perDeterminant) * forms.normal[3];
+    cell.scalar = s[0] + rise.x * reference.coordinate[1] + rise.y * reference.coordinate[2] + rise.z * reference.coordinate[3];
     cell.scalarPerX = lateral * cell.gradient.x;
     cell.scalarPerY = lateral * cell.gradient.y;
     wide alongDepth = orthographic ? cell.gradient.z

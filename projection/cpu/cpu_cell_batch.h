@@ -102,6 +102,17 @@ HWY_INLINE bool batchRectangles(const TileFrame& frame, const hn::Vec<DoubleTag>
 /// What is kept of a cell's gradient.
 enum class GradientParts { None, Magnitude, All };
 
+/// The rises of cells j … from the field's own numbers: scalars may agree in float where the field's do not.
+HWY_INLINE Triple fieldRise(const TileFrame& frame, const SortedCorners& corners, std::size_t j) {
+    wide s[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto index = hn::PromoteTo(
+            DoubleIndexTag(), hn::LoadU(HalfIntTag(), frame.cellData ? &corners.cell[j] : &corners.point[k][j]));
+        s[k] = hn::GatherIndex(DoubleTag(), frame.fieldScalars, index);
+    }
+    return visibleRise(riseOf(s), wide(frame.scalarScale));
+}
+
 /// Lanes j … of the batch: everything but what lies behind the eye.
 template <bool Orthographic, GradientParts gradients>
 HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const SortedCorners& corners, std::size_t j,
@@ -135,7 +146,9 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
 
     const auto forms = cellForms(p[0], p[1], p[2], p[3], Orthographic);
     const auto reference = centroidReference(forms, Orthographic);
-    const auto cell = projectCell(forms, reference, s, Orthographic);
+    Triple rise = riseOf(s);
+    if constexpr (gradients != GradientParts::None) rise = fieldRise(frame, corners, j);
+    const auto cell = projectCell(forms, reference, s, rise, Orthographic);
 
     const wide zero(0.0);
     const auto odd =

@@ -206,6 +206,8 @@ void CpuEngine::prepare() {
     frame_.kind = kind();
     frame_.cells = mesh_.cells.data();
     frame_.scalars = scalars_.data();
+    frame_.fieldScalars = mesh_.scalars.data();
+    frame_.scalarScale = units_.scalarScale;
     frame_.cellData = mesh_.association == mesh::Association::Cell;
     frame_.transfer = &transfer_;
     frame_.scaleInvariant = integralOf(scene_.settings.mode) == preint::Integral::ScaleInvariant;

@@ -128,7 +128,9 @@ HWY_INLINE void setPolynomials(const CellBatch& batch, const float* depth, const
         const real fall = pixelLanes(view.fall), perFall = one / fall, perCentre = perFall * real(1.0f / rays.inverse);
         const real steepness =
             abs(pixelLanes(hn::LoadU(tag, batch.scale + j))) * pixelLanes(hn::LoadU(tag, batch.gradient + j));
-        storeAt(abs(perFall) * pixelLanes(view.spread) + real(rays.spread), looks.spread + j);
+        // the powers of 1/fall are to stay within float: gradients may be rounding's
+        storeAt(select(abs(fall) < real(1e-7f), one, abs(perFall) * pixelLanes(view.spread) + real(rays.spread)),
+                looks.spread + j);
         storeAt(fall * real(rays.inverse), looks.centre + j);
         const real q = min(abs(perCentre) * steepness * pixelLanes(hn::LoadU(tag, depth + j)), real(80.0f)),
                    fade = fadeOf(q);

@@ -35,10 +35,12 @@ void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int
     if (!covers) return;
 
     Triple p[4];
-    double s[4], deepest = 0;
+    double s[4], raw[4], deepest = 0;
     for (std::size_t k = 0; k < 4; ++k) {
         p[k] = Triple(corners[k].x, corners[k].y, corners[k].z);
-        s[k] = frame.cellData ? frame.scalars[cellIndex] : frame.scalars[static_cast<std::uint32_t>(points[k])];
+        const std::size_t at = frame.cellData ? cellIndex : static_cast<std::uint32_t>(points[k]);
+        s[k] = frame.scalars[at];
+        raw[k] = frame.fieldScalars[at];
         deepest = std::max(deepest, p[k].z);
     }
     const auto forms = cellForms(p[0], p[1], p[2], p[3], false);
@@ -48,7 +50,7 @@ void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int
     reference.imageX = 0.5 * (rect.x0 + rect.x1) - frame.centre.x;
     reference.imageY = 0.5 * (rect.y0 + rect.y1) - frame.centre.y;
     coordinatesAt(forms, reference);
-    const auto cell = projectCell(forms, reference, s, false);
+    const auto cell = projectCell(forms, reference, s, visibleRise(riseOf(raw), frame.scalarScale), false);
     std::uint32_t fronts = 0;
     for (std::size_t k = 0; k < 4; ++k) {
         fronts |= (forms.eye[k] < 0) != odd ? 1u << k : 0u;  // as the plane's sign was taken, also where it is 0

@@ -92,7 +92,9 @@ struct TileFrame {
     const CameraFrame* camera;
     const CameraPoint* points;
     const mesh::Tetrahedron* cells;
-    const float* scalars;  ///< scene units, per point or per cell
+    const float* scalars;        ///< scene units, per point or per cell
+    const double* fieldScalars;  ///< the same in the field's own units
+    double scalarScale;          ///< the field's units per scene unit
     bool cellData;
     const CpuTransfer* transfer;
     TileKind kind;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // One cell of a chunk to what the vertex shader reads of it (gl_cell_stream.h): outline, CellRecord, gradient, corners.
-layout(std430, binding = 3) readonly buffer Scalars { double scalars[]; };  // scene units
+layout(std430, binding = 3) readonly buffer Scalars { double scalars[]; };  // the field's own units
 layout(std430, binding = 4) readonly buffer Keyed { uvec2 keyed[]; };
 layout(std430, binding = 5) writeonly buffer Vertices { uint vertices[]; };
 #if TETRALUX_GRADIENT
@@ -9,7 +9,8 @@ layout(std430, binding = 6) readonly buffer Gradients { vec4 gradients[]; };
 #endif
 
 uniform uint chunkBegin, chunkCells, reversed;  // reversed: from the last cell of the order on
-uniform double margin;  // pixels
+uniform double margin;                     // pixels
+uniform double scalarOffset, scalarScale;  // SceneUnits
 
 void store(uint at, float value) { vertices[at] = floatBitsToUint(value); }
 
@@ -47,14 +48,15 @@ void main() {
     int order[4];
     bool odd = sortCorners(points, order);
     dvec3 v[4];
-    double s[4];
+    double raw[4], s[4];
     for (int i = 0; i < 4; ++i) {
         v[i] = corners[order[i]];
-        s[i] = scalars[TETRALUX_CELL_DATA != 0 ? cell : points[order[i]]];
+        raw[i] = scalars[TETRALUX_CELL_DATA != 0 ? cell : points[order[i]]];
+        s[i] = (raw[i] - scalarOffset) / scalarScale;
     }
     CellForms forms = cellForms(v[0], v[1], v[2], v[3], view.orthographic);
     CellReference reference = referenceOfCell(forms, v, view);
-    ProjectedCell projected = projectCell(forms, reference, s, view.orthographic);
+    ProjectedCell projected = projectCell(forms, reference, s, visibleRise(riseOf(raw), scalarScale), view.orthographic);
     int frontMask = 0;
     uint record = base + 8;
     for (int i = 0; i < 4; ++i) {

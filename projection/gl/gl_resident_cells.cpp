@@ -24,13 +24,6 @@ std::size_t chunkBytes(std::size_t chunk) {
     return sizeof(PlanHead) + chunk * sizeof(ChunkCommands);
 }
 
-std::vector<double> unitScalars(const mesh::ScalarMesh& mesh, const SceneUnits& units) {
-    std::vector<double> scalars(mesh.scalars.size());
-    std::transform(mesh.scalars.begin(), mesh.scalars.end(), scalars.begin(),
-                   [&](double s) { return units.toUnit(s); });
-    return scalars;
-}
-
 std::vector<CellGradient> gradientsOf(const mesh::ScalarMesh& mesh, const SceneUnits& units, bool wanted) {
     std::vector<CellGradient> gradients(wanted ? mesh.cells.size() : 0);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, gradients.size(), 4096), [&](const auto& range) {
@@ -84,7 +77,7 @@ GlResidentCells::GlResidentCells(const GlFunctions& gl, const mesh::ScalarMesh& 
       chunkCells_(std::clamp<std::size_t>(visible.size(), 1, mostChunkCells)),
       chunkCount_((visible.size() + chunkCells_ - 1) / chunkCells_),
       positions_(GlStorage::of(gl, mesh.positions)),
-      scalars_(GlStorage::of(gl, unitScalars(mesh, units))),
+      scalars_(GlStorage::of(gl, mesh.scalars)),
       cells_(GlStorage::of(gl, mesh.cells)),
       visible_(GlStorage::of(gl, visible)),
       gradients_(GlStorage::of(gl, gradientsOf(mesh, units, layout.gradient))),
@@ -185,6 +178,8 @@ void GlResidentCells::beginSetUp(const CameraFrame& frame, double margin, bool r
     setView(setUp, frame);
     setUp.set("chunkCells", chunkCells_);
     setUp.set("margin", margin);
+    setUp.set("scalarOffset", units_.scalarOffset);
+    setUp.set("scalarScale", units_.scalarScale);
     setUp.set("reversed", std::size_t{reversed ? 1u : 0u});
 }
 

@@ -16,6 +16,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <mesh/cell_slope.h>
 #include <projection/cells/cell_setup.h>
 #include <projection/cells/cell_shading.h>
 #include <projection/light/light_frame.h>
@@ -254,6 +255,15 @@ glm::dvec3 colorAtDepth(const shading::ShadingSettings& shading, const DepthRang
     return glm::mix(color, shading.depthColor->color, shading.depthColor->strength * depths.shareAt(distance));
 }
 
+/// The sign of s_f − s_b, also where less than rounding of the scalars is left of it: that of −g·d. `cosine` = n·d.
+double signOfFall(const RaySegment& segment, double cosine) {
+    constexpr double rounding = 0x1p-48;
+    const double fall = segment.scalarIn - segment.scalarOut;
+    const double size = std::max(std::abs(segment.scalarIn), std::abs(segment.scalarOut));
+    const double sign = std::abs(fall) > rounding * size ? fall : -cosine;
+    return sign > 0 ? 1.0 : sign < 0 ? -1.0 : 0.0;
+}
+
 Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& ray, const RaySegment& segment,
              const glm::dvec3& cutNormal, const DepthRange& depths) {
     const auto& shading = scene.settings.shading;
@@ -266,11 +276,11 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
     glm::dvec3 meanColor = unlitColor;
     double depth = plainDepth, plain = plainDepth;
 
-    const glm::dvec3 gradient = shading.needsGradient() ? mesh::cellGradient(*scene.mesh, segment.cell) : glm::dvec3(0);
-    const double magnitude = glm::length(gradient);
-    const glm::dvec3 normal = magnitude > 0 ? gradient / magnitude : glm::dvec3(0);
+    const mesh::CellSlope slope =
+        shading.needsGradient() ? mesh::cellSlope(*scene.mesh, segment.cell) : mesh::CellSlope{glm::dvec3(0), 0};
+    const auto& [normal, magnitude] = slope;
     const double variation = std::abs(segment.scalarOut - segment.scalarIn);
-    if (shading.silhouette && magnitude > 0) {
+    if (shading.silhouette && slope.any()) {
         const double cosine = glm::dot(normal, ray.direction);
         double smoothTimesK = 0.0, other = depth;
         if (integral == preint::Integral::ScaleInvariant) {
@@ -289,14 +299,13 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
         plain = plain > 0 ? plain * factor : 0.0;
     }
     double opacity = -std::expm1(-depth);
-    if (shading.silhouette && shading.approximateSilhouette && magnitude > 0)
+    if (shading.silhouette && shading.approximateSilhouette && slope.any())
         opacity = glsl::approximateSilhouetteOpacity(-std::expm1(-plain), std::min(plain, 1e30), std::min(depth, 1e60));
     if (linear) opacity = glsl::linearOpacity(depth);
     const double weight = hides ? opacity : depth;
     const double fromEye = 0.5 * segment.tIn + 0.5 * segment.tOut;
     if (!shading.lit()) return {colorAtDepth(shading, depths, fromEye, meanColor) * weight, opacity, depth};
 
-    const double scalarStep = segment.scalarIn - segment.scalarOut;
     const bool cut = segment.cutInFront && cutNormal != glm::dvec3(0);
     SegmentToLight lit;
     lit.cell = segment.cell;
@@ -305,7 +314,7 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
     lit.fromEye = fromEye;
     lit.normal = cut ? cutNormal : normal;
     lit.cut = cut;
-    lit.side = cut ? 1.0 : scalarStep > 0 ? 1.0 : scalarStep < 0 ? -1.0 : 0.0;
+    lit.side = cut ? 1.0 : signOfFall(segment, glm::dot(normal, ray.direction));
     lit.color = meanColor;
     lit.opacity = opacity;
     return {colorAtDepth(shading, depths, fromEye, litColor(scene, lit)) * weight, opacity, depth};

@@ -116,7 +116,7 @@ HWY_INLINE Sample sampleAt(const CpuTransfer& transfer, std::size_t first, std::
         mask within = s < real(piece.high);
         if (k > first) within = both(within, either(s > real(piece.low), s == real(piece.low)));
         if (k == last) within = k > first ? either(s > real(piece.low), s == real(piece.low)) : s == s;
-        const real offset = s - real(piece.middle);
+        const real offset = s - real(piece.origin);
         sample.extinction += keep(within, real(piece.extinction) + real(piece.extinctionSlope) * offset);
         sample.r += keep(within, real(piece.color[0]) + real(piece.colorSlope[0]) * offset);
         sample.g += keep(within, real(piece.color[1]) + real(piece.colorSlope[1]) * offset);

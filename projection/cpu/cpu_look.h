@@ -107,7 +107,7 @@ private:
     /// Segments within one piece, thin before silhouettes; false if some are not.
     HWY_INLINE bool addThin(const TransferPiece& piece, ColorSink& sink) const {
         const real half = real(0.5f) * (segments.back - segments.front);
-        const real middle = segments.front + half - real(piece.middle);
+        const real middle = segments.front + half - real(piece.origin);
         const real path = ScaleInvariant ? abs(half + half) : segments.length;
         const real step = real(piece.extinctionSlope) * half;
         const real extinction = max(real(piece.extinction) + real(piece.extinctionSlope) * middle, real(0.0f));
@@ -183,7 +183,7 @@ private:
 
         HWY_INLINE Side(const TransferPiece& piece, real front, real back) {
             half = real(0.5f) * (back - front);
-            middle = front + half - real(piece.middle);
+            middle = front + half - real(piece.origin);
             step = real(piece.extinctionSlope) * half;
             depth = abs(half + half) * max(real(piece.extinction) + real(piece.extinctionSlope) * middle, real(0.0f));
             halfStep = abs(half + half) * step;

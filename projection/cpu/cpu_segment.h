@@ -147,7 +147,7 @@ struct Segments {
 template <bool ScaleInvariant, class Sink>
 HWY_INLINE void addWithinPiece(const TransferPiece& piece, const Segments& segments, Sink& sink) {
     const real half = real(0.5f) * (segments.back - segments.front);
-    const real middle = segments.front + half - real(piece.middle);
+    const real middle = segments.front + half - real(piece.origin);
     addPiece(piece, middle, half, ScaleInvariant ? abs(half + half) : segments.length, sink);
 }
 
@@ -163,7 +163,7 @@ HWY_INLINE void addPart(const TransferPiece& piece, const Segments& segments, re
     const real half = real(0.5f) * step, length = Rises ? step : -step;
     real path = length;
     if constexpr (!ScaleInvariant) path = length * perScalar;
-    const real middle = begin + half - real(piece.middle);
+    const real middle = begin + half - real(piece.origin);
     if (piece.fine)
         addPiece<true>(piece, middle, half, path, sink);
     else if (!none(path > zero))

@@ -2,6 +2,7 @@
 #include <projection/cpu/cpu_transfer.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -69,6 +70,12 @@ struct RunLine {
         return true;
     }
 };
+
+/// The end at which extinction is less, as float holds it. About it a line of extinction is a sum of positive numbers,
+/// none of which is lost beside a larger one: depth keeps its relative precision at the foot of the steepest ramp.
+double leastEnd(const std::array<double, 2>& ends, const std::array<double, 2>& extinctions) {
+    return static_cast<double>(static_cast<float>(extinctions[0] <= extinctions[1] ? ends[0] : ends[1]));
+}
 
 /// The last node of the longest run from `begin` that one line meets.
 std::size_t runEnd(const std::vector<TransferNode>& nodes, std::size_t begin, double tolerance) {
@@ -177,19 +184,21 @@ void CpuTransfer::addPiece(const preint::TransferFunction& function, double low,
     const double finiteHigh = std::isinf(high) ? std::max(1.0, low) : high;
     double inside = 0.5 * (finiteLow + finiteHigh);
     if (finiteLow == finiteHigh) inside = std::isinf(low) ? high - 1.0 : low + 1.0;
-    // the float between the ends about which the line is given
-    const double middle = static_cast<float>(0.5 * (finiteLow + finiteHigh));
     const double width = finiteHigh - finiteLow;
-    piece.middle = static_cast<float>(middle);
+    const auto extinction = [&](double s) {
+        return function.extinction.empty()
+                   ? 0.0
+                   : lineAt(function.extinction, &preint::ExtinctionNode::extinction, inside, s);
+    };
+    const double origin = leastEnd({finiteLow, finiteHigh}, {extinction(finiteLow), extinction(finiteHigh)});
+    piece.origin = static_cast<float>(origin);
     auto line = [&](auto valueAt, float& value, float& slope) {
         const double atLow = valueAt(finiteLow), atHigh = valueAt(finiteHigh);
+        const double t = width > 0 ? (origin - finiteLow) / width : 0.0;
         slope = width > 0 ? static_cast<float>((atHigh - atLow) / width) : 0.0f;
-        value = static_cast<float>(width > 0 ? atLow + (middle - finiteLow) / width * (atHigh - atLow) : atLow);
+        value = static_cast<float>((1.0 - t) * atLow + t * atHigh);
     };
     if (!function.extinction.empty()) {
-        auto extinction = [&](double s) {
-            return lineAt(function.extinction, &preint::ExtinctionNode::extinction, inside, s);
-        };
         line(extinction, piece.extinction, piece.extinctionSlope);
         piece.visible = piece.extinction > 0 || piece.extinctionSlope != 0;
     }
@@ -206,9 +215,10 @@ void CpuTransfer::addRun(const std::vector<TransferNode>& nodes, std::size_t beg
     TransferPiece piece{};
     piece.low = static_cast<float>(nodes[begin].scalar);
     piece.high = static_cast<float>(nodes[end].scalar);
-    piece.middle = static_cast<float>(line.middle);
+    const std::array<double, 2> ends{nodes[begin].scalar, nodes[end].scalar};
+    piece.origin = static_cast<float>(leastEnd(ends, {nodes[begin].value[3], nodes[end].value[3]}));
     const auto valueOf = [&](std::size_t c) {
-        return static_cast<float>(line.value[c] + line.slope[c] * (piece.middle - line.middle));
+        return static_cast<float>(line.value[c] + line.slope[c] * (piece.origin - line.middle));
     };
     for (std::size_t c = 0; c < 3; ++c) {
         piece.color[c] = valueOf(c);

@@ -14,9 +14,10 @@
 
 namespace tetralux::projection {
 
-/// Scalars low ≤ s < high (scene units) on which colour and extinction are linear, given about `middle`.
+/// Scalars low ≤ s < high (scene units) on which colour and extinction are linear, given about `origin`: the end at which
+/// extinction is less.
 struct TransferPiece {
-    float low, high, middle;
+    float low, high, origin;
     float extinction, extinctionSlope;  ///< per scene length, or per unit of scalar (scale-invariant)
     float color[3], colorSlope[3];
     bool visible;                      ///< has extinction

@@ -30,8 +30,9 @@ public:
         dense_ = mode == Mode::Standard || mode == Mode::ScaleInvariant || mode == Mode::FirstHit ||
                  mode == Mode::Absorption;
         if (!dense_ || engine_->name() == "reference") return;
-        beyondFloat_ = cellsBeyondFloat(*scene.mesh, scene.transferFunction, integralOf(scene.settings.mode),
-                                        mode == Mode::FirstHit, engine_->name() == "gl");
+        beyondFloat_ =
+            cellsBeyondFloat(*scene.mesh, scene.transferFunction, integralOf(scene.settings.mode),
+                             {mode == Mode::FirstHit, engine_->name() == "gl", scene.settings.shading.silhouette});
         if (!scene.transferFunction.isosurfaces.empty()) outlines_.emplace(scene);
     }
 

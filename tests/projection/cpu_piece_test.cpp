@@ -92,7 +92,7 @@ TEST(CpuTransfer, PiecesFollowTheFunction) {
     for (int i = 0; i <= 997; ++i) {
         const double s = i / 997.0;
         const auto& piece = transfer.pieces()[transfer.pieceFromAbove(static_cast<float>(s))];
-        const double x = s - piece.middle;
+        const double x = s - piece.origin;
         ASSERT_NEAR(piece.extinction + piece.extinctionSlope * x, function.extinctionAt(s), 1e-5) << s;
         if (!piece.visible) continue;
         for (int c = 0; c < 3; ++c)
@@ -127,7 +127,7 @@ TEST(CpuTransfer, RunsOfNodesThatALineMeets) {
         const auto s = static_cast<float>((i + 0.5) / 20000.0);
         const auto at = [&](const CpuTransfer& transfer, std::size_t channel) {
             const TransferPiece& piece = transfer.pieces()[transfer.pieceFromAbove(s)];
-            const float ds = s - piece.middle;
+            const float ds = s - piece.origin;
             return channel == 3 ? piece.extinction + piece.extinctionSlope * ds
                                 : piece.color[channel] + piece.colorSlope[channel] * ds;
         };

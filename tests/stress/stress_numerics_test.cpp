@@ -107,17 +107,25 @@ TEST(StressOpacity, OpticalDepthsOfTwentyFourDecades) {
 TEST(StressOpacity, RampsFromNothingToTwelveDecades) {
     // at the foot of the ramp a scalar's rounding is much of what there is, and tables have a texel for all of it;
     // peaks stay free: single pixels on an outline. A wave shows the foot in front of everything else
-    const mesh::ScalarMesh m = jitteredBoxMesh(12, 0.2, 4, [](const glm::dvec3& p) { return std::pow(wave(p), 8.0); });
-    for (const auto& [mode, strongest] : {std::pair{Mode::Standard, 1e4}, std::pair{Mode::Standard, 1e6},
-                                          std::pair{Mode::Standard, 1e12}, std::pair{Mode::ScaleInvariant, 1e6}}) {
+    const mesh::ScalarMesh m = jitteredBoxMesh(9, 0.2, 4, [](const glm::dvec3& p) { return std::pow(wave(p), 8.0); });
+    struct Case {
+        Mode mode;
+        double foot, strongest;
+        bool silhouettes;
+    };
+    for (const Case& ramp : {Case{Mode::Standard, 0, 1e4, false}, Case{Mode::Standard, 0, 1e5, true},
+                             Case{Mode::Standard, 0.3, 1e6, false}, Case{Mode::Standard, 0, 1e12, true},
+                             Case{Mode::ScaleInvariant, 0, 1e6, false}, Case{Mode::ScaleInvariant, 0.3, 1e8, true}}) {
         preint::TransferFunction f = smoothFunction(0, 1, 1);
-        f.extinction = {{0, 0}, {1, strongest}};
-        const Scene scene = sceneOf(m, f, mode);
+        f.extinction = {{ramp.foot, 0}, {1, ramp.strongest}};
+        Scene scene = sceneOf(m, f, ramp.mode);
+        scene.settings.shading.silhouette = ramp.silhouettes;
         const Image expected = referenceImage(scene, cameraAt(eye));
         EXPECT_GT(coveredShare(expected), 0.1);
-        holdEnginesTo(
-            expected, scene, cameraAt(eye), {1e-4, 1.0},
-            fmt::format("ramp to {:g} {}", strongest, mode == Mode::Standard ? "standard" : "scale-invariant"));
+        holdEnginesTo(expected, scene, cameraAt(eye), {1e-4, 1.0},
+                      fmt::format("ramp from {} to {:g} {}{}", ramp.foot, ramp.strongest,
+                                  ramp.mode == Mode::Standard ? "standard" : "scale-invariant",
+                                  ramp.silhouettes ? ", silhouettes" : ""));
     }
 }
 

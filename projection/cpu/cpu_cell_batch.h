@@ -102,6 +102,14 @@ HWY_INLINE bool batchRectangles(const TileFrame& frame, const hn::Vec<DoubleTag>
 /// What is kept of a cell's gradient.
 enum class GradientParts { None, Magnitude, All };
 
+/// Whether float scalars of one of the cells say too little about its gradient: its direction errs by their rounding
+/// over how much they differ, 3e-5 at most where this is false.
+HWY_INLINE bool nearlyFlat(hn::Vec<HalfFloatTag> low, hn::Vec<HalfFloatTag> high) {
+    const HalfFloatTag half;
+    const auto few = hn::Max(hn::Mul(high, hn::Set(half, 1.0f / 512)), hn::Set(half, static_cast<float>(leastRise)));
+    return !hn::AllFalse(half, hn::Lt(hn::Sub(high, low), few));
+}
+
 /// The rises of cells j … from the field's own numbers: scalars may agree in float where the field's do not.
 HWY_INLINE Triple fieldRise(const TileFrame& frame, const SortedCorners& corners, std::size_t j) {
     wide s[4];
@@ -147,7 +155,9 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
     const auto forms = cellForms(p[0], p[1], p[2], p[3], Orthographic);
     const auto reference = centroidReference(forms, Orthographic);
     Triple rise = riseOf(s);
-    if constexpr (gradients != GradientParts::None) rise = fieldRise(frame, corners, j);
+    if constexpr (gradients != GradientParts::None) {
+        if (HWY_UNLIKELY(nearlyFlat(low, high))) rise = fieldRise(frame, corners, j);
+    }
     const auto cell = projectCell(forms, reference, s, rise, Orthographic);
 
     const wide zero(0.0);

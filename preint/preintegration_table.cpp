@@ -175,7 +175,7 @@ public:
     /// cuts.)
     void choose(PreintegrationTable& table) {
         const std::pair<KinkCuts, std::size_t> ways[] = {
-            {KinkCuts::Ignored, options_.evenTexelsFirst ? quickTexels : 0},
+            {KinkCuts::Ignored, options_.evenTexelsFirst && !isSteep(table) ? quickTexels : 0},
             {KinkCuts::None, quickTexels},
             {KinkCuts::All, largestTexels},
             {KinkCuts::None, largestTexels}};
@@ -197,6 +197,14 @@ public:
     const std::vector<SampleRay>& rays() const { return rays_; }
 
 private:
+    /// Whether a sampler's rounding of texel coordinates, some 2e-6 of a texel, may show where extinction comes from
+    /// texels: at the foot of a ramp it is all that there is.
+    bool isSteep(const PreintegrationTable& table) const {
+        constexpr double mostDepth = 500.0;
+        return table.integral == Integral::Standard &&
+               exact_.largestExtinction(scalarMin_, scalarMax_) * table.lengthMax > mostDepth;
+    }
+
     /// The layout with the size that suits it, of at most `mostTexels` unless the options ask for more; returns its
     /// error.
     double grown(PreintegrationTable& table, KinkCuts cuts, std::size_t mostTexels) {

@@ -109,14 +109,26 @@ std::vector<glm::dvec3> extinctionRamps(const ExactIntegral& exact, double low, 
     return ramps;
 }
 
-/// Whether float sums of the ramps keep extinction to some 1e-4 of 1/range, a scene's unit; every ramp costs each
-/// look-up.
-bool rampsAreAccurate(const std::vector<glm::dvec3>& ramps, double range) {
+/// Whether float sums of the ramps keep extinction to some 1e-4 of 1/range, a scene's unit, or to 1e-5 of itself; every
+/// ramp costs each look-up.
+bool rampsAreAccurate(const std::vector<glm::dvec3>& ramps, double low, double high) {
     constexpr std::size_t most = 16;
-    constexpr double largestSum = 2000.0;
-    double sum = 0.0;
-    for (const glm::dvec3& ramp : ramps) sum += std::abs(ramp.y) + 2.0 * std::abs(ramp.z) * range;
-    return ramps.size() <= most && sum * range <= largestSum;
+    constexpr double largestSum = 2000.0, mostLost = 100.0;
+    if (ramps.size() > most) return false;
+    const auto holdsAt = [&](double scalar, std::size_t count) {
+        double value = 0.0, sum = 0.0;  // of the first ramps, and of what they add or take
+        for (std::size_t k = 0; k < count; ++k) {
+            const double rise = 2.0 * ramps[k].z * (scalar - ramps[k].x);
+            value += ramps[k].y + rise;
+            sum += std::abs(ramps[k].y) + std::abs(rise);
+        }
+        return sum * (high - low) <= largestSum || sum <= mostLost * value;
+    };
+    for (std::size_t i = 0; i < ramps.size(); ++i) {
+        const double end = i + 1 < ramps.size() ? ramps[i + 1].x : high;
+        if (!holdsAt(ramps[i].x, i + 1) || !holdsAt(end, i + 1)) return false;
+    }
+    return true;
 }
 
 /// Texel index of each of `scalars`, the ends of a zone's pieces: 0, …, size − 1.
@@ -201,7 +213,9 @@ ZoneKinks layOutTable(const ExactIntegral& exact, double scalarMin, double scala
             .push_back(kink);
     }
     table.ramps = extinctionRamps(exact, scalarMin, scalarMax);
-    if (cuts != KinkCuts::None || !rampsAreAccurate(table.ramps, scalarMax - scalarMin)) table.ramps.clear();
+    // also between cuts, at which a look-up keeps 1e-3 texel away from the zone's end (table_lookup.glsl): at the foot
+    // of a ramp that is all of extinction, and silhouettes divide it by a small cosine
+    if (cuts == KinkCuts::Ignored || !rampsAreAccurate(table.ramps, scalarMin, scalarMax)) table.ramps.clear();
     return inZone;
 }
 

@@ -28,7 +28,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <projection/order/isosurface_ties.h>
@@ -92,19 +91,6 @@ Extinctions extinctionsOf(const preint::TransferFunction& function, const CellSc
     return found;
 }
 
-/// By how much a channel of the colour differs between two of these scalars at most.
-double colorChange(const preint::TransferFunction& function, const CellScalars& scalars) {
-    glm::dvec3 least = function.colorAt(scalars.low), most = least;
-    const auto meet = [&](const glm::dvec3& color) {
-        least = glm::min(least, color);
-        most = glm::max(most, color);
-    };
-    meet(function.colorAt(scalars.high));
-    for (const auto& node : function.color)
-        if (node.scalar >= scalars.low && node.scalar <= scalars.high) meet(node.color);
-    return std::max({most.x - least.x, most.y - least.y, most.z - least.z});
-}
-
 /// One kind of picture of one mesh.
 class FloatLimits {
 public:
@@ -114,6 +100,7 @@ public:
           function_(function),
           standard_(integral == preint::Integral::Standard),
           use_(use),
+          inTable_(inTable()),
           range_(mesh.scalarMax - mesh.scalarMin),
           oblique_(use.silhouettes ? mostOblique : 1.0) {
         // no cell is longer than the mesh or ranges wider: most scenes end here
@@ -124,7 +111,7 @@ public:
         const double most = standard_ ? strongest * length * planeError * obliqueness * oblique_ : strongest * range_;
         depthMayErr_ = most > largestDepthError;
         rampsMayErr_ = steepest * range_ * scalarRounding * path * oblique_ > largestDepthError ||
-                       (inTable() && strongest * length > largestTableRise);
+                       (inTable_ && strongest * length > largestTableRise);
     }
 
     bool anything() const { return depthMayErr_ || rampsMayErr_ || use_.scalarsShow || !function_.isosurfaces.empty(); }
@@ -136,7 +123,14 @@ public:
     }
 
 private:
-    bool inTable() const { return use_.fromTable && standard_; }
+    /// Tables that hold extinction as ramps lose nothing of it as long as it only rises (table_layout.cpp).
+    bool inTable() const {
+        constexpr std::size_t mostRamps = 15;
+        return use_.fromTable && standard_ &&
+               (function_.extinction.size() > mostRamps ||
+                !std::is_sorted(function_.extinction.begin(), function_.extinction.end(),
+                                [](const auto& a, const auto& b) { return a.extinction < b.extinction; }));
+    }
 
     /// Slope of the ramp between two nodes of extinction; a jump has none.
     double slopeFrom(std::size_t i) const {
@@ -189,8 +183,7 @@ private:
             rise = std::max(rise, slope * (end - begin));
             if (footError(slope, least, path, scalars) > largestDepthError) return !opaque(scalars, shape);
         }
-        return inTable() && rise * shape.longestEdge > largestTableRise && tableBlurs(scalars) &&
-               !opaque(scalars, shape);
+        return inTable_ && rise * shape.longestEdge > largestTableRise && !opaque(scalars, shape);
     }
 
     /// The error of transmittance on a ramp whose extinction is at least `least` in the cell.
@@ -203,12 +196,6 @@ private:
     bool opaque(const CellScalars& scalars, const CellShape& shape) const {
         const double path = standard_ ? shape.leastAltitude : scalars.width();
         return extinctionsOf(function_, scalars).least * path > opaqueDepth;
-    }
-
-    /// Interpolation blurs colour at the foot, unless there is but one.
-    bool tableBlurs(const CellScalars& scalars) const {
-        const double texel = range_ / coarsestTable;
-        return colorChange(function_, {scalars.low - texel, scalars.high + texel}) > largestDepthError;
     }
 
     /// Whether an isosurface may be met twice or never, since both sides of a face must agree about its scalar.
@@ -232,12 +219,11 @@ private:
                scalars.high >= value - farthest;
     }
 
-    static constexpr double coarsestTable = 64;  // texels over the range
-
     const mesh::ScalarMesh& mesh_;
     const preint::TransferFunction& function_;
     const bool standard_;
     const FloatUse use_;
+    const bool inTable_;
     const double range_, oblique_;
     bool depthMayErr_ = false, rampsMayErr_ = false;
 };

@@ -29,7 +29,8 @@ enum class Reflectance {
     Phong,       ///< about 2n(n·l) − l
     BlinnPhong,  ///< half-way vector about n
     Ward,  ///< exponents κ(λ₂/λ₁)^γ along the major direction and κ across it (Ament & Dachsbacher 2015), normalized
-    Lafortune,        ///< u = 2(1 − exp(γ(1 − λ₂/λ₁))) − 1 along it, v = −1 across, 1 along n
+    Lafortune,  ///< u = 2(1 − exp(γ(1 − λ₂/λ₁))) − 1 along it, v = −1 across, 1 along n; as wide as Blinn–Phong:
+                ///< exponent/4
     HenyeyGreenstein  ///< phase function instead of diffuse and specular light; needs no gradient
 };
 

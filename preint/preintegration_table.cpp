@@ -175,6 +175,8 @@ public:
     /// cuts.)
     void choose(PreintegrationTable& table) {
         const std::pair<KinkCuts, std::size_t> ways[] = {
+            // where nothing shows on one side of a kink there is no mean colour to interpolate with
+            {KinkCuts::All, options_.meanColors ? quickTexels : 0},
             {KinkCuts::Ignored, options_.evenTexelsFirst && !isSteep(table) ? quickTexels : 0},
             {KinkCuts::None, quickTexels},
             {KinkCuts::All, largestTexels},
@@ -195,6 +197,7 @@ public:
 
     /// The rays by which sizes were judged.
     const std::vector<SampleRay>& rays() const { return rays_; }
+    Compared compared() const { return options_.meanColors ? Compared::MeanColor : Compared::PremultipliedColor; }
 
 private:
     /// Whether a sampler's rounding of texel coordinates, some 2e-6 of a texel, may show where extinction comes from
@@ -223,7 +226,7 @@ private:
         }
         if (options_.size <= 0) table.size = sizeMeeting(kinksToMeet_, table);
         placeTexels(kinks_, table);
-        double error = lookUpError(exact_, table, rays_);
+        double error = lookUpError(exact_, table, rays_, compared());
         while (error > options_.wantedError && grow(table, error, mostTexels)) {
         }
         return error;
@@ -254,7 +257,7 @@ private:
         if (sizeFactor > 1) table.size = sizeMeeting(kinksToMeet_, table);
         if (!fits(table) || texelCount(table) > mostTexels) return HUGE_VAL;
         placeTexels(kinks_, table);
-        return lookUpError(exact_, table, rays_);
+        return lookUpError(exact_, table, rays_, compared());
     }
 
     const ExactIntegral& exact_;
@@ -279,7 +282,7 @@ PreintegrationTable build(const ExactIntegral& exact, PreintegrationTable table,
         chooser.choose(table);
         table.texels.resize(texelCount(table));
         fill(exact, table);
-        table.measuredError = lookUpError(table, chooser.rays());
+        table.measuredError = lookUpError(table, chooser.rays(), chooser.compared());
     });
     table.buildMilliseconds = millisecondsSince(start);
     return table;

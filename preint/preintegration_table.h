@@ -43,6 +43,9 @@ struct TableOptions {
     /// Try first, with up to 16 MiB, texels that lie evenly over each zone and hold extinction too: no `warp`, no
     /// `ramps`. The cheapest look-up, for engines to which arithmetic costs more than texels.
     bool evenTexelsFirst = false;
+    /// What is wanted of the table is the mean colour of single segments, however faint they are, as pictures of the
+    /// first hit show it: `wantedError` is of that.
+    bool meanColors = false;
 };
 
 /// Texels of one table, all zones stacked: zone z, back j, front i, slice k at

@@ -107,13 +107,20 @@ struct Sampler {
     }
 };
 
-double differenceOf(const SegmentResult& a, const SegmentResult& b) {
-    const glm::dvec3 color = glm::abs(a.color - b.color);
-    return std::max({color.x, color.y, color.z, std::abs(a.opacity() - b.opacity())});
+double differenceOf(const SegmentResult& found, const SampleRay& ray, Compared compared) {
+    const SegmentResult& exact = ray.exact;
+    constexpr double faintest = 1e-30;
+    const bool mean = compared == Compared::MeanColor;
+    if (mean && (ray.lengths.size() > 1 || exact.opacity() < faintest)) return 0;
+    const glm::dvec3 color = mean ? found.color / std::max(found.opacity(), faintest) - exact.color / exact.opacity()
+                                  : found.color - exact.color;
+    const double opacity = mean ? 0 : found.opacity() - exact.opacity();
+    return std::max({std::abs(color.x), std::abs(color.y), std::abs(color.z), std::abs(opacity)});
 }
 
 template <class Fetch>
-double largestError(const PreintegrationTable& table, const Fetch& fetch, const std::vector<SampleRay>& rays) {
+double largestError(const PreintegrationTable& table, const Fetch& fetch, const std::vector<SampleRay>& rays,
+                    Compared compared) {
     return tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(0, rays.size()), 0.0,
         [&](const tbb::blocked_range<std::size_t>& range, double largest) {
@@ -124,7 +131,7 @@ double largestError(const PreintegrationTable& table, const Fetch& fetch, const 
                 for (std::size_t i = 0; i < ray.lengths.size(); ++i) {
                     composite(sum, reader.segment(ray.scalars[i], ray.scalars[i + 1], ray.lengths[i]));
                 }
-                largest = std::max(largest, differenceOf(sum, ray.exact));
+                largest = std::max(largest, differenceOf(sum, ray, compared));
             }
             return largest;
         },
@@ -146,18 +153,19 @@ std::vector<SampleRay> sampleRays(const ExactIntegral& exact, const Preintegrati
     return std::move(sampler.rays);
 }
 
-double lookUpError(const PreintegrationTable& table, const std::vector<SampleRay>& rays) {
+double lookUpError(const PreintegrationTable& table, const std::vector<SampleRay>& rays, Compared compared) {
     const int rows = table.size * static_cast<int>(table.zones.size());
     const auto fetch = [&table, rows](int i, int row, int k) {
         return glm::dvec4(table.texels[(static_cast<std::size_t>(k) * rows + row) * table.size + i]);
     };
-    return largestError(table, fetch, rays);
+    return largestError(table, fetch, rays, compared);
 }
 
-double lookUpError(const ExactIntegral& exact, const PreintegrationTable& layout, const std::vector<SampleRay>& rays) {
+double lookUpError(const ExactIntegral& exact, const PreintegrationTable& layout, const std::vector<SampleRay>& rays,
+                   Compared compared) {
     const TableTexels texels(exact, layout);
     const auto fetch = [&texels](int i, int row, int k) { return glm::dvec4(texels.texel(i, row, k)); };
-    return largestError(layout, fetch, rays);
+    return largestError(layout, fetch, rays, compared);
 }
 
 }  // namespace tetralux::preint

@@ -21,10 +21,15 @@ struct SampleRay {
 /// rays of 30 to 400 random steps that sweep the range or oscillate in part of it.
 std::vector<SampleRay> sampleRays(const ExactIntegral& exact, const PreintegrationTable& layout);
 
-/// The largest difference of premultiplied colour or opacity at the end of any ray.
-double lookUpError(const PreintegrationTable& table, const std::vector<SampleRay>& rays);
+/// What two results of a ray differ by: premultiplied colour or opacity at its end, or the mean colour of a ray that is
+/// one segment (0 where nothing shows).
+enum class Compared { PremultipliedColor, MeanColor };
+
+/// The largest difference of any ray.
+double lookUpError(const PreintegrationTable& table, const std::vector<SampleRay>& rays, Compared compared);
 
 /// The same for a table of that layout that is not built: texels are computed as they are needed.
-double lookUpError(const ExactIntegral& exact, const PreintegrationTable& layout, const std::vector<SampleRay>& rays);
+double lookUpError(const ExactIntegral& exact, const PreintegrationTable& layout, const std::vector<SampleRay>& rays,
+                   Compared compared);
 
 }  // namespace tetralux::preint

@@ -135,6 +135,11 @@ bool drawPixel(CellRecord cell, ivec2 place, out vec4 result) {
     vec4 perOpacity = shadedSegment(front, back, len, side, view, normalAndMagnitude, cutNormal);
 #if TETRALUX_MODE == TETRALUX_MODE_FIRST_HIT
     if (!segmentShows(front, back)) return false;
+#if !TETRALUX_ORTHOGRAPHIC
+    // an eye on a vertex or an edge: that a cell ends right there is for rounding to say
+    const float atEye = 1e6, faint = 1e-4;
+    if (rho.y > atEye && perOpacity.a < faint) return false;
+#endif
     result = vec4(perOpacity.rgb, 1.0);
 #elif TETRALUX_MODE == TETRALUX_MODE_ABSORPTION
     result = vec4(perOpacity.a, 0.0, 0.0, 0.0);

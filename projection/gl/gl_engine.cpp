@@ -89,11 +89,16 @@ double longestEdge(const mesh::ScalarMesh& mesh, const SceneUnits& units) {
         [](double a, double b) { return std::max(a, b); });
 }
 
+/// A mean colour shows once in a pixel, other errors of a table as often as there are cells along a ray.
+constexpr double ofMeanColors = 5.0;
+
 preint::PreintegrationTable buildTable(const Scene& scene, const preint::TransferFunction& function,
                                        const SceneUnits& units) {
     const preint::ExactIntegral exact(function);
     preint::TableOptions options = scene.settings.table;
-    options.evenTexelsFirst = true;
+    options.meanColors = scene.settings.mode == Mode::FirstHit;
+    options.evenTexelsFirst = !options.meanColors;
+    if (options.meanColors) options.wantedError *= ofMeanColors;
     const double largestScale = scene.settings.largestExtinctionScale;
     if (integralOf(scene.settings.mode) == preint::Integral::ScaleInvariant) {
         const bool adds = addsUp(scene.settings.mode);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <preint/preintegration_table.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -110,6 +111,34 @@ INSTANTIATE_TEST_SUITE_P(Functions, TableAccuracy,
                                          Case{"smoothWithPeaks", samples::smoothWithPeaks()},
                                          Case{"viridis", resolved(preset("viridis"), 0.0, 1.0, 1.0)}),
                          [](const auto& suite) { return suite.param.name; });
+
+TEST(PreintegrationTable, MeanColorsOfFaintSegments) {
+    // half of what a segment meets shows nothing, and what shows is faint: its colour counts whole all the same
+    TransferFunction function;
+    function.color = {{0.0, {0.1, 0.9, 0.5}}, {0.35, {0.9, 0.2, 0.4}}, {0.6, {0.3, 0.5, 0.9}}, {1.0, {0.5, 0.1, 0.2}}};
+    function.extinction = {{0.0, 1e-3}, {0.3, 0.0}, {0.62, 0.0}, {1.0, 2e-3}};
+    const ExactIntegral exact(function);
+    const auto largest = [&](const TableOptions& options) {
+        const PreintegrationTable table = buildStandardTable(exact, 0.0, 1.0, 0.06, options);
+        std::mt19937_64 random(3);
+        std::uniform_real_distribution<double> unit(0.0, 1.0);
+        double error = 0;
+        for (int i = 0; i < 4000; ++i) {
+            const double front = unit(random), back = std::clamp(front + 0.4 * (unit(random) - 0.5), 0.0, 1.0);
+            const SegmentResult is = exact.segment(front, back, 0.03, Integral::Standard);
+            const SegmentResult found = lookUpSegment(table, front, back, 0.03);
+            if (is.opacity() == 0 || found.opacity() == 0) continue;
+            const glm::dvec3 off = glm::abs(found.color / found.opacity() - is.color / is.opacity());
+            error = std::max({error, off.x, off.y, off.z});
+        }
+        return error;
+    };
+    TableOptions options;
+    options.wantedError = 1e-3;
+    EXPECT_GT(largest(options), 5e-3) << "the function no longer tells the options apart";
+    options.meanColors = true;
+    EXPECT_LT(largest(options), 2e-3);  // twice the wanted error, as above
+}
 
 TEST(PreintegrationTable, RecurrenceIsTheDirectIntegral) {
     for (const TransferFunction& function : {samples::smooth(), samples::narrowTents(), samples::jumps()}) {

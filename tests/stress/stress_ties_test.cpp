@@ -152,6 +152,25 @@ TEST(StressTies, TheFirstHitIsNoCellThatTheRayOnlyTouches) {
         }
 }
 
+TEST(StressTies, TheFirstHitSeenFromAVertex) {
+    // most cells about the eye end right there, where they show nothing
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    mesh::ScalarMesh m = boxMesh(4, [&](const glm::dvec3&) { return share(random); });
+    preint::TransferFunction function;
+    function.color = {{0.0, {1, 0.2, 0}}, {0.4, {0.1, 0.8, 0.9}}, {1.0, {0, 0.3, 1}}};
+    function.extinction = {{0.0, 9.0}, {0.3, 0.0}, {0.7, 0.0}, {1.0, 4.0}};
+    const Scene scene = sceneOf(finished(std::move(m)), function, Mode::FirstHit);
+    for (const glm::dvec3& eye : {glm::dvec3(0.25, 0.5, 0.5), glm::dvec3(0.0), glm::dvec3(0.375, 0.5, 0.5)}) {
+        Camera camera = cameraAt(eye, {0.6, 0.55, 0.63}, 40, 40);
+        camera.fovDegrees = 70;
+        const Image expected = referenceImage(scene, camera);
+        EXPECT_GT(coveredShare(expected), 0.5);
+        // a table's mean colours, to 5e-4
+        holdEnginesTo(expected, scene, camera, {2e-4, 5e-3}, fmt::format("first hit from {:.3f}", eye.x));
+    }
+}
+
 /// Two cells that share a face, from random points; scalars of 0 … 1.
 Scene twoCells(std::mt19937& random) {
     std::uniform_real_distribution<double> share(0.0, 1.0);

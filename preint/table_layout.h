@@ -13,7 +13,7 @@ namespace tetralux::preint {
 using ZoneKinks = std::vector<std::vector<double>>;
 
 /// Whether segments are cut at kinks as they are at jumps: a hundred times more accurate at the same size, but each cut
-/// costs a look-up. Ignored: there are no ramps either, and texels are to be placed without regard to kinks.
+/// costs a look-up. Ignored: there are no ramps, and texels are to be placed without regard to kinks.
 enum class KinkCuts { None, All, Ignored };
 
 /// Fills `zones`, `interfaces` and `ramps` of `table` and returns the strongest kinks. Every jump in (scalarMin,

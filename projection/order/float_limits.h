@@ -22,7 +22,8 @@ struct FloatUse {
 /// least altitude h errs by up to 1e-7·e/h of its range. An isosurface within the range of a cell with e/h > 3000 may
 /// be met twice or never, since that cell and its neighbour differ about the scalar on their face; with `scalarsShow`
 /// such cells count anywhere. So do cells whose scalars differ by so little that they lie, or might, between the places
-/// that isosurface_ties.h gives an isosurface in float and in double. Ramps of extinction: float_limits.cpp. Nothing
+/// that isosurface_ties.h gives an isosurface in float and in double. Ramps of extinction: float_limits.cpp;
+/// with `fromTable` also cells in which depth rises by hundreds, unless extinction only rises over the range. Nothing
 /// counts where the whole cell is opaque. Empty for every scene but those of extreme extinction or flatness: engines
 /// have the pixels of these cells composed exactly.
 std::vector<mesh::CellIndex> cellsBeyondFloat(const mesh::ScalarMesh& mesh, const preint::TransferFunction& function,

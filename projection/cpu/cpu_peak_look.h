@@ -43,6 +43,7 @@ HWY_INLINE real fadeOf(real depth) {
 enum class CellShows {
     Anything,
     NarrowPeak,  ///< one isosurface and nothing else, and the polynomial holds
+    WidePeak,    ///< the same where it does not
     VeiledPeak   ///< one isosurface and the pieces of the transfer function beside it, scale-invariant
 };
 

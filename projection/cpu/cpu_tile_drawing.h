@@ -146,11 +146,10 @@ private:
         const CellBlocks blocks{j, &order, xBegin, yBegin, x1, y1, first, last};
         if constexpr (looksAtPeaks && look == Look::Silhouettes) {
             if (peakLooks_.peak[j] != nullptr && look_.gradient > 0) {
-                if (peakLooks_.veiled[j]) {
-                    if constexpr (ScaleInvariant) return drawBlocks<CellShows::VeiledPeak>(blocks);
-                } else if (HWY_LIKELY(peakLooks_.narrow(j))) {
-                    return drawBlocks<CellShows::NarrowPeak>(blocks);
-                }
+                if (!peakLooks_.veiled[j])
+                    return peakLooks_.narrow(j) ? drawBlocks<CellShows::NarrowPeak>(blocks)
+                                                : drawBlocks<CellShows::WidePeak>(blocks);
+                if constexpr (ScaleInvariant) return drawBlocks<CellShows::VeiledPeak>(blocks);
             }
         }
         drawBlocks<CellShows::Anything>(blocks);

@@ -46,11 +46,20 @@ public:
           rowStart_(static_cast<std::size_t>(frame.height) + 1) {
         for (std::uint32_t pixel : pixels) ++rowStart_[pixel / width_ + 1];
         for (std::size_t y = 1; y < rowStart_.size(); ++y) rowStart_[y] += rowStart_[y - 1];
+        if (pixels.size() > few) return;
+        for (std::uint32_t pixel : pixels) single_.emplace_back(pixel % width_, pixel / width_);
     }
 
     /// `visit(i)` for each pixel with low ≤ (x, y) ≤ high.
     template <class Visit>
     void within(const glm::vec2& low, const glm::vec2& high, Visit visit) const {
+        if (!single_.empty()) {
+            for (std::uint32_t i = 0; i < single_.size(); ++i) {
+                const glm::vec2 above = single_[i] - low, below = high - single_[i];
+                if (std::min(std::min(above.x, above.y), std::min(below.x, below.y)) >= -rounding) visit(i);
+            }
+            return;
+        }
         const int x0 = first(low.x, static_cast<int>(width_)), y0 = first(low.y, height_);
         const int x1 = end(high.x, static_cast<int>(width_)), y1 = end(high.y, height_);
         if (x0 >= x1 || y0 >= y1) return;
@@ -67,6 +76,8 @@ public:
     }
 
 private:
+    static constexpr std::size_t few = 6;  // pixels that are asked for one by one sooner than by rows
+
     static constexpr int block = 8;  // pixels: a table of blocks stays in a processor's nearest cache
 
     static std::vector<std::uint32_t> blocksOf(std::span<const std::uint32_t> pixels, int width) {
@@ -89,6 +100,7 @@ private:
     int height_;
     WantedPixels blocks_;
     std::vector<std::ptrdiff_t> rowStart_;
+    std::vector<glm::vec2> single_;  // where they are few
 };
 
 struct Pair {

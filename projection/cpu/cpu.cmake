@@ -15,12 +15,14 @@ target_sources(tetralux_projection PRIVATE
   cpu/cpu_transfer.cpp
 )
 target_link_libraries(tetralux_projection PRIVATE PkgConfig::Highway)
-# The least that vectors of four need; Highway's portable form has one lane.
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  set_source_files_properties(cpu/cpu_cull_kernel.cpp cpu/cpu_limited_kernel.cpp cpu/cpu_tile_kernel.cpp PROPERTIES COMPILE_OPTIONS "-msse4.2;-maes;-mpclmul")
-endif()
-# Sanitizers read one copy of the kernels as well as six: an instrumented one takes minutes to compile.
+set(kernels cpu/cpu_cull_kernel.cpp cpu/cpu_limited_kernel.cpp cpu/cpu_tile_kernel.cpp)
+# Sanitizers read one copy of the kernels as well as all of them, and an instrumented one takes minutes to compile; whoever
+# works on kernels waits for one copy too.
 if(TETRALUX_SANITIZE)
-  set_property(SOURCE cpu/cpu_cull_kernel.cpp cpu/cpu_limited_kernel.cpp cpu/cpu_tile_kernel.cpp APPEND PROPERTY
-               COMPILE_OPTIONS "-DHWY_COMPILE_ONLY_STATIC;-O1")
+  set_source_files_properties(${kernels} PROPERTIES COMPILE_OPTIONS "-msse4.2;-maes;-mpclmul;-DHWY_COMPILE_ONLY_STATIC;-O1")
+elseif(TETRALUX_ONE_INSTRUCTION_SET)
+  set_source_files_properties(${kernels} PROPERTIES COMPILE_OPTIONS "-march=haswell;-maes;-mpclmul;-DHWY_COMPILE_ONLY_STATIC")
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  # the least that vectors of four need; Highway's portable form has one lane
+  set_source_files_properties(${kernels} PROPERTIES COMPILE_OPTIONS "-msse4.2;-maes;-mpclmul")
 endif()

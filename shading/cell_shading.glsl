@@ -18,8 +18,8 @@ TETRALUX_GLSL_FUNCTION real silhouetteDepth(real smoothDepthTimesK, real otherDe
 //   light       l, unit, towards the light
 //   side        sign of v·n, taken from s_f − s_b
 //   transmitted 1 − α where light may pass, 0 where transmission is off
-// Reflection where (l·n)(v·n) > 0, with r = 2n(n·l) − l; transmission where it is < 0: its specular lobe is about the direction in which
-// light goes straight on, −l, since that is what the eye sees through a thin layer.
+// Reflection where (l·n)(v·n) > 0, with r = 2n(n·l) − l and a highlight in the light's colour; transmission where it is < 0: its specular
+// lobe is about the direction in which light goes straight on, −l, and in the material's colour, which the light went through.
 TETRALUX_GLSL_FUNCTION vec3 lightTerm(vec3 diffuseColor, vec3 normal, vec3 view, vec3 light, real side, real transmitted,
                                       real exponent) {
     real lightSide = dot(light, normal);
@@ -28,5 +28,6 @@ TETRALUX_GLSL_FUNCTION vec3 lightTerm(vec3 diffuseColor, vec3 normal, vec3 view,
     vec3 lobe = select(facing > real(0.0), reflected, -light);
     real specular = pow(max(dot(lobe, view), real(0.0)), exponent);
     real weight = select(facing > real(0.0), real(1.0), select(facing < real(0.0), transmitted, real(0.0)));
-    return weight * (diffuseColor * abs(lightSide) + vec3(specular));
+    vec3 specularColor = select(facing > real(0.0), vec3(real(1.0)), diffuseColor);
+    return weight * (diffuseColor * abs(lightSide) + specular * specularColor);
 }

@@ -114,33 +114,41 @@ TETRALUX_GLSL_FUNCTION real phaseFunction(real asymmetry, real cosine) {
     return (real(1.0) - square) / (base * sqrt(base));
 }
 
-TETRALUX_GLSL_FUNCTION real specularLobe(LightModel model, LitPoint point, vec3 light, real exponent) {
-    if (model.kind == 0) {
-        vec3 reflected = real(2.0) * dot(light, point.normal) * point.normal - light;
-        return pow(max(dot(reflected, point.view), real(0.0)), exponent);
-    }
-    if (model.kind == 3) return lafortuneLobe(point, light, real(0.25) * exponent);
+TETRALUX_GLSL_FUNCTION vec3 halfwayVector(LitPoint point, vec3 light) {
     vec3 halfway = light + point.view;
-    halfway = halfway * (real(1.0) / sqrt(max(dot(halfway, halfway), real(1e-12))));
-    if (model.kind == 2) return wardLobe(point, halfway);
-    return pow(max(point.side * dot(halfway, point.normal), real(0.0)), exponent);
+    return halfway * (real(1.0) / sqrt(max(dot(halfway, halfway), real(1e-12))));
 }
 
-// What one light adds to a segment per unit of α and of the light's colour.
+// What Phong's or Blinn and Phong's lobe is a power of.
+TETRALUX_GLSL_FUNCTION real lobeCosine(LightModel model, LitPoint point, vec3 light) {
+    if (model.kind == 1) return point.side * dot(halfwayVector(point, light), point.normal);
+    return real(2.0) * dot(light, point.normal) * dot(point.view, point.normal) - dot(light, point.view);
+}
+
+// What one light adds to a segment per unit of α and of the light's colour (Equation 19, one term of the sum). Light that goes through
+// stands about −l with any lobe and has the material's colour.
 TETRALUX_GLSL_FUNCTION vec3 modelTerm(LightModel model, LitPoint point, vec3 diffuseColor, vec3 light) {
     if (model.kind == 4) return phaseFunction(model.asymmetry, -dot(light, point.view)) * diffuseColor;
     real lightSide = dot(light, point.normal);
     real facing = lightSide * point.side;
-    vec3 mirrored = light - real(2.0) * min(facing, real(0.0)) * point.side * point.normal;
     vec3 sideSpecular = select(point.side > real(0.0), model.frontSpecular, model.backSpecular);
     real sideExponent = select(point.side > real(0.0), model.frontExponent, model.backExponent);
-    vec3 specular = select(facing > real(0.0), sideSpecular, real(0.5) * (model.frontSpecular + model.backSpecular));
+    vec3 specular = select(facing > real(0.0), sideSpecular, diffuseColor);
     real exponent = select(facing > real(0.0), sideExponent, real(0.5) * (model.frontExponent + model.backExponent));
     real through = select(facing < real(0.0), real(1.0) - point.opacity, real(0.0));
     real diffuseWeight = select(facing > real(0.0), model.diffuse, model.diffuseThrough * through);
     real specularWeight = select(facing > real(0.0), model.specular, model.specularThrough * through);
-    return (diffuseWeight * abs(lightSide)) * diffuseColor +
-           (specularWeight * specularLobe(model, point, mirrored, exponent)) * specular;
+    real straight = -dot(light, point.view);
+    real lobe;
+    if (model.kind < 2) {
+        lobe = pow(max(select(facing > real(0.0), lobeCosine(model, point, light), straight), real(0.0)), exponent);
+    } else {
+        real reflected = real(0.0);
+        if (model.kind == 2) reflected = wardLobe(point, halfwayVector(point, light));
+        if (model.kind == 3) reflected = lafortuneLobe(point, light, real(0.25) * exponent);
+        lobe = select(facing > real(0.0), reflected, pow(max(straight, real(0.0)), exponent));
+    }
+    return (diffuseWeight * abs(lightSide)) * diffuseColor + (specularWeight * lobe) * specular;
 }
 
 // Share of a light that is left at a distance; `fade`: constant, per length, per length squared.

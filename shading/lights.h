@@ -23,8 +23,8 @@ struct Light {
     glm::dvec3 attenuation{1, 0, 0};  ///< constant, per mesh unit, per mesh unit squared
 };
 
-/// How the specular lobe is formed. What light does from the far side of a segment (transmission) is what it would do
-/// from the mirrored direction, so that a lobe stands about the direction in which light goes straight on.
+/// How the highlight is formed. Light from the far side of a segment (transmission) has a lobe about the direction in
+/// which it goes straight on, in the material's colour, whatever the reflectance.
 enum class Reflectance {
     Phong,       ///< about 2n(n·l) − l
     BlinnPhong,  ///< half-way vector about n
@@ -42,14 +42,14 @@ enum class Normals {
 
 /// Of one side of a two-sided material. The front is the side of larger scalars, that which n points to.
 struct MaterialSide {
-    glm::dvec3 specular{1};          ///< C_spec
+    glm::dvec3 specular{1};          ///< C_spec, of reflection alone
     std::optional<double> exponent;  ///< nothing: ShadingSettings::exponent
 };
 
 struct Material {
     double diffuse = 1, specular = 1;                          ///< factors of reflection
     double diffuseTransmission = 1, specularTransmission = 1;  ///< factors of transmission
-    MaterialSide front, back;                                  ///< transmission takes their mean
+    MaterialSide front, back;                                  ///< transmission takes their mean exponent
     double phaseAsymmetry = 0.3;                               ///< Henyey–Greenstein's g, −1 … 1
     /// k_s = |∇τ| (Ament & Dachsbacher 2015): both specular factors times the magnitude of extinction's gradient at the
     /// vertices over its largest, so that only what looks like a surface shines. Isosurfaces do not count; 1 where

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// The light of one segment for the quick looks: shares A and B of C·A + α·B, where A gathers ambient and diffuse and B
-/// specular light. Included once per instruction set.
+/// The light of one segment for the quick looks: shares A and B of C·A + α·B, where A gathers ambient, diffuse and
+/// transmitted light, which have the material's colour, and B highlights. Included once per instruction set.
 ///
 /// Plain lights (ShadingSettings::plain): a lobe about the reflected direction r = 2n(n·l) − l or about −l is looked at
 /// along v = −d, so that it is a product of the pixel's ray with one of two directions that the cell knows.
 ///
 /// Lamps (point, head and coloured lights, Phong or Blinn–Phong, shading/light_model.glsl): all of it follows from
 /// three cosines. With a = |n·l| and b = |n·v|, light that is reflected has Phong's cosine 2ab − l·v and Blinn and
-/// Phong's (a + b)/√(2 + 2 l·v); for what goes through the light is mirrored, which makes them −l·v and the same with
-/// l·v + 2ab in l·v's place.
+/// Phong's (a + b)/√(2 + 2 l·v); what goes through has −l·v with either.
 #include <projection/cpu/cpu_shading_vectors.h>
 
 #include <cmath>
@@ -110,9 +109,7 @@ HWY_INLINE LightShares<Look::Lit> plainShares(const QuickLook& look, const CellL
             white = white + keep(reflects, lobeOf(look, cosineTo<Orthographic>(cell.reflected[i], block)));
         }
         if (look.transmission && !none(transmits)) {
-            const real weight = keep(transmits, through);
-            color += weight * amount;
-            white += weight * lobeOf(look, cosineTo<Orthographic>(look.lamps[i].place, block));
+            color += keep(transmits, through) * (amount + lobeOf(look, cosineTo<Orthographic>(look.lamps[i].place, block)));
         }
     }
     return {{color}, {white}};
@@ -138,7 +135,9 @@ HWY_INLINE LampLight lightOf(const QuickLook& look, std::size_t i, const CellLoo
     if (lamp.kind == 2 && !lamp.fades) return light;
     const vec3 way(real(lamp.place[0]) - block.place.x, real(lamp.place[1]) - block.place.y,
                    real(lamp.place[2]) - block.place.z);
-    const real square = max(dot(way, way), real(1e-36f)), perReach = one / sqrt(square);
+    // the light at the eye of an orthographic view stands behind each pixel
+    const real apart = Orthographic && lamp.kind == 2 ? way.z * way.z : dot(way, way);
+    const real square = max(apart, real(1e-36f)), perReach = one / sqrt(square);
     if (lamp.fades)
         light.strength =
             one /
@@ -155,7 +154,6 @@ HWY_INLINE LampLight lightOf(const QuickLook& look, std::size_t i, const CellLoo
     return light;
 }
 
-/// Cosine of the lobe; `toView` is that of the light, mirrored where it goes through.
 HWY_INLINE real halfwayCosine(real amount, real viewSide, real toView) {
     return (amount + viewSide) / sqrt(max(real(2.0f) + real(2.0f) * toView, real(1e-12f)));
 }
@@ -173,25 +171,22 @@ HWY_INLINE LightShares<Look::Lamps> lampShares(const QuickLook& look, const Cell
     for (std::size_t i = 0; i < look.lights; ++i) {
         const LampLight light = lightOf<Orthographic>(look, i, cell, block, viewSide);
         const mask reflects = both(live, light.facing > zero), transmits = both(live, light.facing < zero);
-        real diffuse = zero, specular = zero;
+        real colored = zero, specular = zero;
         if (!none(reflects)) {
             const real cosine = look.halfway ? halfwayCosine(light.amount, viewSide, light.toView)
                                              : two * light.amount * viewSide - light.toView;
-            diffuse = keep(reflects, real(look.diffuse) * light.amount);
+            colored = keep(reflects, real(look.diffuse) * light.amount);
             specular = keep(reflects, real(look.specular) * lobeOf(look, cosine));
         }
         if (look.transmission && !none(transmits)) {
-            const real mirrored = light.toView + two * light.amount * viewSide;
-            const real cosine = look.halfway ? halfwayCosine(light.amount, viewSide, mirrored) : -light.toView;
-            const real weight = keep(transmits, left);
-            diffuse += weight * (real(look.diffuseThrough) * light.amount);
-            specular += weight * (real(look.specularThrough) * lobeOf(look, cosine));
+            colored += keep(transmits, left) * (real(look.diffuseThrough) * light.amount +
+                                                real(look.specularThrough) * lobeOf(look, -light.toView));
         }
         const QuickLamp& lamp = look.lamps[i];
-        diffuse = diffuse * light.strength;
+        colored = colored * light.strength;
         specular = specular * light.strength;
         for (std::size_t c = 0; c < 3; ++c) {
-            shares.colors[c] += real(lamp.color[c]) * diffuse;
+            shares.colors[c] += real(lamp.color[c]) * colored;
             shares.whites[c] += real(lamp.specular[c]) * specular;
         }
     }

@@ -110,14 +110,14 @@ HWY_INLINE vec3 arriving(const FrameLight& light, vec3 place, vec3 view, vec3& t
         towards = broadcast(light.place);
         return color;
     }
+    if (light.kind == 2) {  // in orthographic views behind each pixel
+        towards = view;
+        return attenuation(broadcast(light.fade), -dot(place, view)) * color;
+    }
     const vec3 way = broadcast(light.place) - place;
     const real reach = sqrt(dot(way, way));
-    if (light.kind == 1) {
-        const real inverse = real(1.0f) / max(reach, real(1e-18f));
-        towards = select(reach > real(0.0f), inverse * way, view);
-    } else {
-        towards = view;
-    }
+    const real inverse = real(1.0f) / max(reach, real(1e-18f));
+    towards = select(reach > real(0.0f), inverse * way, view);
     return attenuation(broadcast(light.fade), reach) * color;
 }
 

@@ -64,9 +64,13 @@ void setMiddle(CellRecord cell, vec2 rho, float dx, float dy, vec2 fromCentre) {
 vec3 arriving(int i, vec3 view, out vec3 towards) {
     towards = lightPlace[i];
     if (lightKind[i] == 0) return lightColor[i];
+    if (lightKind[i] == 2) {  // in orthographic views behind each pixel
+        towards = view;
+        return attenuation(lightFade[i], -dot(middlePlace, view)) * lightColor[i];
+    }
     vec3 way = lightPlace[i] - middlePlace;
     float reach = length(way);
-    towards = lightKind[i] == 1 && reach > 0.0 ? way / max(reach, 1e-18) : view;
+    towards = reach > 0.0 ? way / max(reach, 1e-18) : view;
     return attenuation(lightFade[i], reach) * lightColor[i];
 }
 

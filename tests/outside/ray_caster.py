@@ -136,29 +136,51 @@ def segment(tf, mode, front, back, length):
     return color, depth, through
 
 
-def _lit(color, opacity, normal, d, facing, look):
-    """Equation 19 for lights of intensity 1: ambient, and one term per light, C_spec = 1."""
-    diffuse = [c / opacity for c in color]
-    out = [look["ambient"] * c for c in color]
+def arriving(light, place, view, from_eye):
+    """Unit direction to a light and its colour after attenuation, I·f_att. `light` as in a lighting file."""
+    if light["type"] == "directional":
+        return unit(light["towards"]), light["color"]
+    if light["type"] == "head":
+        towards, distance = view, from_eye
+    else:
+        way = sub(light["position"], place)
+        distance = math.sqrt(dot(way, way))
+        towards = unit(way)
+    constant, linear, quadratic = light.get("attenuation", (1, 0, 0))
+    return towards, [c / (constant + distance * (linear + distance * quadratic)) for c in light["color"]]
+
+
+def _lit(color, opacity, normal, d, facing, look, place, from_eye):
+    """Equation 19, all five terms. `facing` has the sign of v·n; lights are taken at the segment's middle, `place`."""
+    diffuse, material, view = [c / opacity for c in color], look["material"], tuple(-x for x in d)
+    out = [look["ambient"][i] * color[i] for i in range(3)]
     if normal is None:
         return out
-    view = tuple(-x for x in d)
     for light in look["lights"]:
-        side = dot(light, normal)
+        towards, intensity = arriving(light, place, view, from_eye)
+        side = dot(towards, normal)
         if side * facing > 0:
-            lobe, weight = tuple(2 * side * n - l for n, l in zip(normal, light)), opacity
+            seen = material["front" if facing > 0 else "back"]
+            if look["reflectance"] == "blinn-phong":
+                lobe = abs(dot(unit(tuple(l + v for l, v in zip(towards, view))), normal))
+            else:
+                lobe = dot(tuple(2 * side * n - l for n, l in zip(normal, towards)), view)
+            specular = max(lobe, 0.0) ** seen["exponent"]
+            term = [material["diffuse"] * diffuse[i] * abs(side) + material["specular"] * seen["specular"][i] * specular for i in range(3)]
         elif side * facing < 0:
-            lobe, weight = tuple(-l for l in light), opacity * (1 - opacity)
+            mean = (material["front"]["exponent"] + material["back"]["exponent"]) / 2
+            specular = max(-dot(towards, view), 0.0) ** mean
+            through = material["diffuse_transmission"] * abs(side) + material["specular_transmission"] * specular
+            term = [(1 - opacity) * through * c for c in diffuse]
         else:
             continue
-        specular = max(dot(lobe, view), 0.0) ** look["exponent"]
         for i in range(3):
-            out[i] += weight * (diffuse[i] * abs(side) + specular)
+            out[i] += intensity[i] * opacity * term[i]
     return out
 
 
 def pixel(cells, camera, tf, mode, look, x, y, size):
-    """Premultiplied (r, g, b, a) over nothing. `look`: {"silhouette": bool, "lights": [unit vectors], "ambient", "exponent"}."""
+    """Premultiplied (r, g, b, a) over nothing. `look`: a lighting file with every key there, and "silhouette"."""
     origin, d = camera.ray(x, y, size)
     met = sorted(((*interval, cell) for cell in cells if (interval := cell.interval(origin, d))), key=lambda m: m[0] + m[1])
     color, transparency = [0.0, 0.0, 0.0], 1.0
@@ -176,7 +198,8 @@ def pixel(cells, camera, tf, mode, look, x, y, size):
             opacity = enhanced
         if look["lights"]:
             normal = unit(cell.gradient) if size_of_gradient > 0 else None
-            emitted = _lit(emitted, opacity, normal, d, (front > back) - (front < back), look)
+            middle = (enter + leave) / 2
+            emitted = _lit(emitted, opacity, normal, d, (front > back) - (front < back), look, along(origin, middle, d), middle)
         for i in range(3):
             color[i] += transparency * emitted[i]
         transparency *= 1 - opacity

@@ -68,6 +68,12 @@ const std::map<std::string, std::function<void(shading::ShadingSettings&)>>& cas
              s.lights[1].color = {0.9, 0.4, 0.2};
          }},
         {"HeadLight", [](auto& s) { s.lights = {head()}; }},
+        {"FadingHeadLight",
+         [](auto& s) {
+             s.lights = {head(), directional({-0.5, -0.4, -0.7})};
+             s.lights[0].attenuation = {0.5, 0.2, 0.3};
+             s.material.back.exponent = 9;
+         }},
         {"TwoSidedMaterial",
          [](auto& s) {
              s.lights = {directional({0.4, 0.8, 0.6}), directional({-0.6, 0.2, -0.7})};

@@ -108,10 +108,11 @@ TEST(Reference, LightOnALinearFieldIsThatOfOneSurface) {
     const double lambert = std::sqrt(0.5), specular = std::pow(std::sqrt(0.5), 8), alpha = image.at(20, 20).w;
     EXPECT_NEAR(image.at(20, 20).x, alpha * (0.2 * 0.5 + 0.5 * lambert + specular), 1e-4 * alpha);
     EXPECT_NEAR(image.at(20, 20).z, alpha * (0.2 * 1.0 + 1.0 * lambert + specular), 1e-4 * alpha);
-    // light from behind is transmitted: |l·n| the same, the specular lobe is about −l = (0, −1, 1)/√2; weight 1 − α ≈ 1
+    // light from behind is transmitted: |l·n| the same, the specular lobe is about −l = (0, −1, 1)/√2 and in the
+    // material's colour; weight 1 − α ≈ 1
     scene.settings.shading.lights = {{glm::normalize(glm::dvec3(0, 1, -1))}};
     const Image behind = render(scene, camera);
-    EXPECT_NEAR(behind.at(20, 20).x, alpha * (0.2 * 0.5 + 0.5 * lambert + specular), 1e-3 * alpha);
+    EXPECT_NEAR(behind.at(20, 20).x, alpha * 0.5 * (0.2 + lambert + specular), 1e-3 * alpha);
     scene.settings.shading.transmission = false;
     EXPECT_NEAR(render(scene, camera).at(20, 20).x, alpha * 0.2 * 0.5, 1e-4 * alpha);
 }

@@ -87,6 +87,7 @@ TEST(LightModel, LafortuneWithoutAnisotropyIsPhong) {
         phong.frontExponent = lafortune.frontExponent / 4;
         phong.backExponent = lafortune.backExponent / 4;
         const LitPoint point = pointOf(lafortune, n, v, vec3(1), vec3(0));
+        if (dot(l, n) * dot(v, n) < 0) continue;
         EXPECT_NEAR(modelTerm(lafortune, point, vec3(0.5), l).x, modelTerm(phong, point, vec3(0.5), l).x, 1e-9);
     }
 }
@@ -108,9 +109,29 @@ TEST(LightModel, BothLobesPeakWhereLightGoes) {
         const LitPoint point = pointOf(modelOf(kind), n, v, vec3(1, 1, 0), vec3(0));
         const vec3 mirror(-v.x, -v.y, v.z);
         EXPECT_NEAR(modelTerm(modelOf(kind), point, vec3(0), mirror).x, 1, 1e-6) << kind;
-        EXPECT_NEAR(modelTerm(modelOf(kind), point, vec3(0), -v).x, 0.7, 1e-6)
-            << kind;  // straight through, 1 − α of it
+        // straight through: diffuse and specular light in the material's colour, 1 − α of it
+        EXPECT_NEAR(modelTerm(modelOf(kind), point, vec3(0), -v).x, 0, 1e-6) << kind;
+        EXPECT_NEAR(modelTerm(modelOf(kind), point, vec3(0.5), -v).x, 0.7 * 0.5 * (v.z + 1), 1e-6) << kind;
     }
+}
+
+TEST(LightModel, TransmissionTakesTheMeanExponentAndTheMaterialsColor) {
+    std::mt19937 random(4);
+    for (const int kind : {0, 1})
+        for (int i = 0; i < 200; ++i) {
+            LightModel model = modelOf(kind);
+            model.frontSpecular = vec3(0.2, 0.9, 0.4);
+            model.frontExponent = 10;
+            model.backExponent = 4;
+            model.diffuseThrough = 0.8;
+            model.specularThrough = 0.6;
+            const vec3 n = randomDirection(random), v = randomDirection(random), l = randomDirection(random);
+            if (dot(l, n) * dot(v, n) > 0) continue;
+            const LitPoint point = pointOf(model, n, v, vec3(1), vec3(0));
+            const vec3 color(0.3, 0.5, 0.8);
+            const double share = 0.8 * std::abs(dot(l, n)) + 0.6 * std::pow(std::max(0.0, -dot(l, v)), 7);
+            EXPECT_NEAR(glm::length(modelTerm(model, point, color, l) - 0.7 * share * color), 0, 1e-9);
+        }
 }
 
 TEST(LightModel, IsFiniteForAnyInput) {

@@ -18,6 +18,7 @@ using Command = std::function<int()>;
 // Each adds its subcommand and options to `program`; when the command line names it, `chosen` is set.
 void addRenderCommand(CLI::App& program, Command& chosen);
 void addInfoCommand(CLI::App& program, Command& chosen);
+void addExtractCommand(CLI::App& program, Command& chosen);
 void addBenchCommand(CLI::App& program, Command& chosen);
 void addCompareCommand(CLI::App& program, Command& chosen);
 

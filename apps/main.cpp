@@ -19,8 +19,8 @@ using tetralux::apps::Command;
 constexpr int badInput = 2;
 
 constexpr void (*commands[])(CLI::App&, Command&) = {
-    tetralux::apps::addRenderCommand, tetralux::apps::addMeshCommand,    tetralux::apps::addInfoCommand,
-    tetralux::apps::addBenchCommand,  tetralux::apps::addCompareCommand,
+    tetralux::apps::addRenderCommand,  tetralux::apps::addMeshCommand,  tetralux::apps::addInfoCommand,
+    tetralux::apps::addExtractCommand, tetralux::apps::addBenchCommand, tetralux::apps::addCompareCommand,
 };
 
 /// Errors are one line each, whatever a library wrote.

@@ -15,15 +15,6 @@ namespace tetralux::apps {
 
 namespace {
 
-projection::Slice parseSlice(const std::string& text) {
-    const std::vector<double> v = parseNumbers("--slice", text, 6, "px,py,pz,nx,ny,nz (a point and the normal)");
-    const glm::dvec3 normal(v[3], v[4], v[5]);
-    const double largest = std::max({std::abs(v[3]), std::abs(v[4]), std::abs(v[5])});
-    if (largest == 0.0)
-        throw std::runtime_error(fmt::format("--slice: '{}' has the normal 0,0,0; give one with a direction", text));
-    return {{v[0], v[1], v[2]}, normal / largest};
-}
-
 double parseOpacity(const std::string& text) {
     const double opacity = parseNumbers("--slice-opacity", text, 1, "a number from 0 to 1").front();
     if (!(opacity >= 0.0 && opacity <= 1.0))
@@ -47,10 +38,19 @@ void addRepeated(CLI::App& command, const std::string& name, const std::string& 
 
 }  // namespace
 
+projection::Slice parseSlice(const std::string& option, const std::string& text) {
+    const std::vector<double> v = parseNumbers(option, text, 6, "px,py,pz,nx,ny,nz (a point and the normal)");
+    const glm::dvec3 normal(v[3], v[4], v[5]);
+    const double largest = std::max({std::abs(v[3]), std::abs(v[4]), std::abs(v[5])});
+    if (largest == 0.0)
+        throw std::runtime_error(fmt::format("{}: '{}' has the normal 0,0,0; give one with a direction", option, text));
+    return {{v[0], v[1], v[2]}, normal / largest};
+}
+
 void addOpaqueOptions(CLI::App& command, OpaqueOptions& options) {
     addRepeated(command, "--slice", "px,py,pz,nx,ny,nz",
                 "slice through a point with a normal, opaque if nothing is said; may be given several times",
-                [&options](const std::string& text) { options.slices.push_back(parseSlice(text)); });
+                [&options](const std::string& text) { options.slices.push_back(parseSlice("--slice", text)); });
     addRepeated(command, "--slice-opacity", "A", "how much a slice hides, from 0 to 1; one for all or one for each",
                 [&options](const std::string& text) { options.sliceOpacities.push_back(parseOpacity(text)); });
     addRepeated(command, "--surface", "FILE",

@@ -24,6 +24,9 @@ struct OpaqueOptions {
     bool flat = false;                      ///< surfaces without light
 };
 
+/// "px,py,pz,nx,ny,nz"; the normal becomes one whose largest component is 1.
+projection::Slice parseSlice(const std::string& option, const std::string& text);
+
 void addOpaqueOptions(CLI::App& command, OpaqueOptions& options);
 
 /// Reads the surfaces. \throws std::runtime_error naming the file or option.

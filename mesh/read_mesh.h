@@ -32,6 +32,9 @@ struct ReadResult {
 /// \throws std::runtime_error naming the source, what is wrong and what would mend it.
 ReadResult readMesh(const std::string& source, const ReadOptions& options = {});
 
+/// Larger magnitudes stand for no value, as NaN does: the integrals need products with lengths and differences.
+inline constexpr double largestScalar = 1e280;
+
 struct ScalarSelection {
     ScalarMesh mesh;
     std::string fieldName;             ///< the field taken, with component: "Velocity (magnitude)"

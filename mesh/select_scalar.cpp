@@ -162,8 +162,7 @@ std::string fieldTitle(const Field& field, int component) {
                                  : fmt::format("{} ({})", field.name, component);
 }
 
-/// Values of up to 1e280 are drawn: the integrals need products with lengths and differences. What is beyond stands
-/// for no value (the largest double, say), as NaN does. Scaling overflows just there.
+/// Scaling overflows just beyond `largestScalar` (not before 1.7e280).
 double finiteIfDrawable(double value) {
     constexpr double scale = 1e28;
     return value * scale;

@@ -7,9 +7,9 @@
 
 #include <glm/vec3.hpp>
 
-#include <mesh/tet_mesh.h>
+#include <mesh/tet/tet_mesh.h>
 #include <preint/transfer_function.h>
-#include <projection/camera.h>
+#include <projection/core/camera.h>
 #include <projection/image/image.h>
 
 namespace CLI {

@@ -8,8 +8,8 @@
 
 #include <glm/vec2.hpp>
 
-#include <mesh/tet_mesh.h>
-#include <projection/camera.h>
+#include <mesh/tet/tet_mesh.h>
+#include <projection/core/camera.h>
 
 namespace tetralux::apps {
 

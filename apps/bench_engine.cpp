@@ -20,6 +20,7 @@
 #include <apps/bench_statistics.h>
 #include <apps/option_values.h>
 #include <apps/stopwatch.h>
+#include <projection/frame/engine_registry.h>
 
 namespace tetralux::apps {
 

@@ -9,9 +9,9 @@
 #include <glm/vec2.hpp>
 
 #include <apps/bench_row.h>
-#include <projection/engine.h>
+#include <projection/core/engine.h>
+#include <projection/core/scene.h>
 #include <projection/image/image.h>
-#include <projection/scene.h>
 
 namespace tetralux::apps {
 

@@ -12,12 +12,12 @@
 #include <vector>
 
 #include <apps/bench_scene.h>
-#include <mesh/adjacency.h>
+#include <mesh/tet/adjacency.h>
 #include <preint/exact_integral.h>
 #include <preint/preintegration_table.h>
 #include <projection/cells/cell_setup.h>
 #include <projection/cpu/cpu_bins.h>
-#include <projection/engine.h>
+#include <projection/frame/engine_registry.h>
 #include <projection/order/power_order.h>
 #include <projection/order/visibility_order.h>
 

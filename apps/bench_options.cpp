@@ -13,7 +13,7 @@
 #include <apps/bench_scene.h>
 #include <apps/bench_vtk_rows.h>
 #include <apps/option_values.h>
-#include <projection/engine.h>
+#include <projection/frame/engine_registry.h>
 #include <projection/gl/gl_context.h>
 #include <projection/gl/gl_path.h>
 

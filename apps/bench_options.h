@@ -10,7 +10,7 @@
 #include <glm/vec2.hpp>
 
 #include <apps/bench_run.h>
-#include <projection/scene.h>
+#include <projection/core/scene.h>
 
 namespace CLI {
 class App;

@@ -11,7 +11,7 @@
 
 #include <apps/bench_engine.h>
 #include <apps/bench_row.h>
-#include <projection/scene.h>
+#include <projection/core/scene.h>
 
 namespace tetralux::apps {
 

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <mesh/procedural_field.h>
-#include <mesh/read_mesh.h>
+#include <mesh/io/read_mesh.h>
+#include <mesh/tet/procedural_field.h>
 
 namespace tetralux::apps {
 

@@ -10,10 +10,10 @@
 
 #include <glm/vec2.hpp>
 
-#include <mesh/tet_mesh.h>
+#include <mesh/tet/tet_mesh.h>
 #include <preint/transfer_function.h>
-#include <projection/camera.h>
-#include <projection/scene.h>
+#include <projection/core/camera.h>
+#include <projection/core/scene.h>
 
 namespace tetralux::apps {
 

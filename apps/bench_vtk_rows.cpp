@@ -15,7 +15,7 @@
 
 #include <apps/bench_scene.h>
 #include <apps/run_program.h>
-#include <projection/transfer_support.h>
+#include <projection/core/transfer_support.h>
 
 namespace tetralux::apps {
 

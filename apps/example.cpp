@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
-#include <mesh/read_mesh.h>
+#include <mesh/io/read_mesh.h>
 #include <preint/transfer_function.h>
-#include <projection/camera.h>
-#include <projection/engine.h>
+#include <projection/core/camera.h>
+#include <projection/frame/engine_registry.h>
 #include <projection/image/image.h>
 
 using namespace tetralux;

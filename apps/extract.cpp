@@ -16,9 +16,9 @@
 #include <apps/opaque_options.h>
 #include <apps/option_values.h>
 #include <apps/read_options.h>
-#include <mesh/field_surface.h>
-#include <mesh/mesh_cut.h>
-#include <mesh/read_mesh.h>
+#include <mesh/tet/field_surface.h>
+#include <mesh/tet/mesh_cut.h>
+#include <mesh/io/read_mesh.h>
 #include <projection/image/whole_file.h>
 
 namespace tetralux::apps {

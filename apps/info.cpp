@@ -12,8 +12,8 @@
 #include <apps/commands.h>
 #include <apps/read_options.h>
 #include <apps/report_text.h>
-#include <mesh/mesh_statistics.h>
-#include <mesh/read_mesh.h>
+#include <mesh/io/read_mesh.h>
+#include <mesh/tet/mesh_statistics.h>
 
 namespace tetralux::apps {
 

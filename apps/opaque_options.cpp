@@ -9,7 +9,7 @@
 #include <glm/common.hpp>
 
 #include <apps/option_values.h>
-#include <mesh/read_surface.h>
+#include <mesh/io/read_surface.h>
 
 namespace tetralux::apps {
 

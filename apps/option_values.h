@@ -11,7 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include <projection/scene.h>
+#include <projection/core/scene.h>
 
 namespace tetralux::apps {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <mesh/read_mesh.h>
+#include <mesh/io/read_mesh.h>
 
 namespace CLI {
 class App;

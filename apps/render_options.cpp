@@ -15,6 +15,7 @@
 #include <apps/option_values.h>
 #include <apps/read_options.h>
 #include <preint/transfer_function.h>
+#include <projection/frame/engine_registry.h>
 #include <projection/gl/gl_path.h>
 
 namespace tetralux::apps {

@@ -12,9 +12,9 @@
 #include <apps/annotation.h>
 #include <apps/opaque_options.h>
 #include <apps/shape_options.h>
-#include <mesh/read_mesh.h>
-#include <projection/engine.h>
-#include <projection/scene.h>
+#include <mesh/io/read_mesh.h>
+#include <projection/core/engine.h>
+#include <projection/core/scene.h>
 
 namespace CLI {
 class App;

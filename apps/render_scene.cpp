@@ -12,12 +12,13 @@
 #include <fmt/ranges.h>
 
 #include <apps/stopwatch.h>
-#include <mesh/interface_checks.h>
-#include <mesh/procedural_field.h>
-#include <mesh/read_mesh.h>
-#include <mesh/volume_samples.h>
+#include <mesh/io/read_mesh.h>
+#include <mesh/tet/interface_checks.h>
+#include <mesh/tet/procedural_field.h>
+#include <mesh/tet/volume_samples.h>
 #include <preint/equidistant_isosurfaces.h>
 #include <preint/transfer_function.h>
+#include <projection/frame/engine_registry.h>
 #include <projection/opaque/opaque_layer.h>
 
 namespace tetralux::apps {

@@ -12,10 +12,10 @@
 
 #include <apps/annotation.h>
 #include <apps/render_options.h>
-#include <mesh/mesh_report.h>
-#include <projection/engine.h>
-#include <projection/preview.h>
-#include <projection/verification.h>
+#include <mesh/tet/mesh_report.h>
+#include <projection/core/engine.h>
+#include <projection/frame/preview.h>
+#include <projection/frame/verification.h>
 
 namespace tetralux::apps {
 

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <mesh/mesh_report.h>
+#include <mesh/tet/mesh_report.h>
 
 namespace tetralux::apps {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include <projection/clip_region.h>
-#include <projection/scene.h>
+#include <projection/core/clip_region.h>
+#include <projection/core/scene.h>
 
 namespace CLI {
 class App;

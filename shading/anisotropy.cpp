@@ -10,7 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include <mesh/point_cells.h>
+#include <mesh/tet/point_cells.h>
 #include <shading/cut_disc.h>
 #include <shading/level_set_points.h>
 #include <shading/mesh_border.h>

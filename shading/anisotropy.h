@@ -9,7 +9,7 @@
 
 #include <glm/vec3.hpp>
 
-#include <mesh/tet_mesh.h>
+#include <mesh/tet/tet_mesh.h>
 #include <shading/lights.h>
 
 namespace tetralux::shading {

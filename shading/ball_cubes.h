@@ -8,7 +8,7 @@
 
 #include <glm/vec3.hpp>
 
-#include <mesh/tet_mesh.h>
+#include <mesh/tet/tet_mesh.h>
 
 namespace tetralux::shading {
 

@@ -12,7 +12,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include <mesh/vertex_buckets.h>
+#include <mesh/tet/vertex_buckets.h>
 #include <shading/widest.h>
 
 namespace tetralux::shading {

@@ -11,7 +11,7 @@
 
 #include <glm/vec3.hpp>
 
-#include <mesh/tet_mesh.h>
+#include <mesh/tet/tet_mesh.h>
 #include <shading/ball_cubes.h>
 
 namespace tetralux::shading {

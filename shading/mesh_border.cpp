@@ -7,8 +7,8 @@
 
 #include <glm/geometric.hpp>
 
-#include <mesh/adjacency.h>
-#include <mesh/vertex_buckets.h>
+#include <mesh/tet/adjacency.h>
+#include <mesh/tet/vertex_buckets.h>
 #include <shading/widest.h>
 
 namespace tetralux::shading {

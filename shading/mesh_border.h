@@ -10,7 +10,7 @@
 
 #include <glm/vec3.hpp>
 
-#include <mesh/tet_mesh.h>
+#include <mesh/tet/tet_mesh.h>
 #include <shading/ball_cubes.h>
 #include <shading/cut_disc.h>
 

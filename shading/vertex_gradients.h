@@ -5,8 +5,8 @@
 
 #include <glm/vec3.hpp>
 
-#include <mesh/point_cells.h>
-#include <mesh/tet_mesh.h>
+#include <mesh/tet/point_cells.h>
+#include <mesh/tet/tet_mesh.h>
 
 namespace tetralux::shading {
 

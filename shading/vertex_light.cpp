@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <mesh/point_cells.h>
+#include <mesh/tet/point_cells.h>
 #include <shading/anisotropy.h>
 #include <shading/vertex_gradients.h>
 

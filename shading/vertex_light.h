@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <mesh/tet_mesh.h>
+#include <mesh/tet/tet_mesh.h>
 #include <shading/lights.h>
 
 namespace tetralux::shading {

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include <mesh/field.h>
-#include <mesh/tet_mesh.h>
+#include <mesh/tet/field.h>
+#include <mesh/tet/tet_mesh.h>
 
 #include "geometry.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <mesh/tet_mesh.h>
+#include <mesh/tet/tet_mesh.h>
 
 namespace tetralux::mesher {
 

@@ -10,7 +10,7 @@
 
 #include <glm/vec3.hpp>
 
-#include <mesh/field.h>
+#include <mesh/tet/field.h>
 
 namespace tetralux::mesher {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <mesh/tet_mesh.h>
+#include <mesh/tet/tet_mesh.h>
 
 #include "geometry.h"
 #include "pipeline.h"

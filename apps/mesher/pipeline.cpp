@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include <mesh/write_vtu.h>
+#include <mesh/io/write_vtu.h>
 
 #include "generated_field.h"
 #include "mesh_points.h"

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include <mesh/read_mesh.h>
+#include <mesh/io/read_mesh.h>
 
 #include "geometry.h"
 

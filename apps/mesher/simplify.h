@@ -23,7 +23,7 @@
 #include <limits>
 #include <string>
 
-#include <mesh/tet_mesh.h>
+#include <mesh/tet/tet_mesh.h>
 
 #include "child_process.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <mesh/tet_mesh.h>
+#include <mesh/tet/tet_mesh.h>
 
 #include "surface_defects.h"
 

@@ -8,9 +8,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include <mesh/tet_mesh.h>
-#include <projection/camera.h>
-#include <projection/scene_units.h>
+#include <mesh/tet/tet_mesh.h>
+#include <projection/core/camera.h>
+#include <projection/core/scene_units.h>
 
 namespace tetralux::projection {
 

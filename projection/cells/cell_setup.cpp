@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include <mesh/cell_slope.h>
+#include <mesh/tet/cell_slope.h>
 #include <projection/cells/projected_cell.h>
 
 namespace tetralux::projection {

@@ -6,8 +6,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include <mesh/tet_mesh.h>
-#include <projection/camera.h>
+#include <mesh/tet/tet_mesh.h>
+#include <projection/core/camera.h>
 
 namespace tetralux::projection {
 

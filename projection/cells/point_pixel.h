@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include <projection/camera.h>
+#include <projection/core/camera.h>
 
 namespace tetralux::projection {
 

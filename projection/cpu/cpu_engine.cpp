@@ -23,6 +23,8 @@
 #include <glm/geometric.hpp>
 
 #include <projection/cells/edge_on_planes.h>
+#include <projection/cells/ray_nearness.h>
+#include <projection/core/transfer_support.h>
 #include <projection/cpu/cpu_bins.h>
 #include <projection/cpu/cpu_cull.h>
 #include <projection/cpu/cpu_limits.h>
@@ -30,8 +32,6 @@
 #include <projection/cpu/cpu_quick_look.h>
 #include <projection/cpu/cpu_tile.h>
 #include <projection/light/vertex_samples.h>
-#include <projection/order/ray_nearness.h>
-#include <projection/transfer_support.h>
 
 namespace tetralux::projection {
 

@@ -11,7 +11,7 @@
 
 #include <memory>
 
-#include <projection/engine.h>
+#include <projection/core/engine.h>
 
 namespace tetralux::projection {
 

@@ -3,7 +3,7 @@
 
 #include <glm/geometric.hpp>
 
-#include <projection/order/ray_nearness.h>
+#include <projection/cells/ray_nearness.h>
 
 namespace tetralux::projection {
 

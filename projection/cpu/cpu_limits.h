@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <projection/core/pixel_maps.h>
 #include <projection/cpu/cpu_tile.h>
-#include <projection/pixel_maps.h>
 
 namespace tetralux::projection {
 

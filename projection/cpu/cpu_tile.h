@@ -11,15 +11,15 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include <mesh/tet_mesh.h>
-#include <projection/camera.h>
+#include <mesh/tet/tet_mesh.h>
 #include <projection/cells/camera_points.h>
 #include <projection/cells/cell_constants.h>
 #include <projection/cells/cell_setup.h>
+#include <projection/core/camera.h>
+#include <projection/core/scene.h>
 #include <projection/cpu/cpu_transfer.h>
 #include <projection/image/image.h>
 #include <projection/light/light_frame.h>
-#include <projection/scene.h>
 
 namespace tetralux::projection {
 

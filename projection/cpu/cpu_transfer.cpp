@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include <projection/transfer_support.h>
+#include <projection/core/transfer_support.h>
 
 namespace tetralux::projection {
 

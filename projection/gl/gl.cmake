@@ -39,7 +39,6 @@ target_sources(tetralux_projection PRIVATE
   gl/gl_tiles.cpp
   gl/osmesa_context.cpp
   gl/shared_library.cpp
-  transfer_support.cpp
 )
 target_link_libraries(tetralux_projection PRIVATE tetralux_glad ${CMAKE_DL_LIBS})
 tetralux_embed_shaders(tetralux_projection FILES

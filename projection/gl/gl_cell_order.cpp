@@ -10,8 +10,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <projection/core/transfer_support.h>
 #include <projection/order/visibility_relations.h>
-#include <projection/transfer_support.h>
 
 namespace tetralux::projection {
 

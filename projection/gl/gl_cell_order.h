@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include <projection/engine.h>
+#include <projection/core/engine.h>
 #include <projection/order/key_sort.h>
 #include <projection/order/visibility_order.h>
 

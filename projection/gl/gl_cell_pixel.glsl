@@ -7,7 +7,7 @@
 uniform vec2 centre;        // pixel coordinates of the optical axis
 
 #if TETRALUX_LIMITS
-uniform sampler2D limits;  // nearness at which the volume begins and ends, factor of extinction (projection/order/ray_nearness.h)
+uniform sampler2D limits;  // nearness at which the volume begins and ends, factor of extinction (projection/cells/ray_nearness.h)
 uniform sampler2D cutNormals;
 uniform float depthReference;
 

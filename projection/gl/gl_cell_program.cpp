@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
+#include <projection/core/transfer_support.h>
 #include <projection/gl/gl_compute.h>
 #include <projection/gl/gl_tiles.h>
-#include <projection/transfer_support.h>
 
 namespace tetralux::projection {
 namespace {

@@ -7,11 +7,11 @@
 #include <memory>
 
 #include <preint/preintegration_table.h>
-#include <projection/camera.h>
 #include <projection/cells/cell_setup.h>
+#include <projection/core/camera.h>
+#include <projection/core/scene.h>
 #include <projection/gl/gl_program.h>
 #include <projection/light/light_frame.h>
-#include <projection/scene.h>
 
 namespace tetralux::projection {
 

@@ -15,6 +15,8 @@
 
 #include <projection/cells/cell_constants.h>
 #include <projection/cells/edge_on_planes.h>
+#include <projection/cells/ray_nearness.h>
+#include <projection/core/transfer_support.h>
 #include <projection/gl/gl_cell_order.h>
 #include <projection/gl/gl_cell_program.h>
 #include <projection/gl/gl_cell_stream.h>
@@ -28,8 +30,6 @@
 #include <projection/gl/gl_resolve.h>
 #include <projection/gl/gl_sampler_probe.h>
 #include <projection/gl/gl_tiles.h>
-#include <projection/order/ray_nearness.h>
-#include <projection/transfer_support.h>
 #include <glm/geometric.hpp>
 
 namespace tetralux::projection {

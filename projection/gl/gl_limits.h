@@ -4,8 +4,8 @@
 #pragma once
 
 #include <projection/cells/cell_setup.h>
+#include <projection/core/pixel_maps.h>
 #include <projection/gl/gl_functions.h>
-#include <projection/pixel_maps.h>
 
 namespace tetralux::projection {
 

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include <mesh/adjacency.h>
+#include <mesh/tet/adjacency.h>
 #include <projection/cells/camera_points.h>
 #include <projection/gl/gl_cell_buffer.h>
 #include <projection/gl/gl_tiles.h>

@@ -4,10 +4,10 @@
 #pragma once
 
 #include <preint/transfer_function.h>
-#include <projection/camera.h>
 #include <projection/cells/cell_setup.h>
+#include <projection/core/camera.h>
+#include <projection/core/scene.h>
 #include <projection/image/image.h>
-#include <projection/scene.h>
 
 namespace tetralux::projection {
 

@@ -7,7 +7,7 @@
 #include <functional>
 #include <optional>
 
-#include <projection/camera.h>
+#include <projection/core/camera.h>
 #include <projection/gl/gl_cell_buffer.h>
 #include <projection/gl/gl_radix_sort.h>
 

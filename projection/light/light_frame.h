@@ -10,9 +10,9 @@
 
 #include <glm/vec3.hpp>
 
-#include <projection/camera.h>
 #include <projection/cells/cell_setup.h>
-#include <projection/scene.h>
+#include <projection/core/camera.h>
+#include <projection/core/scene.h>
 #include <shading/vertex_light.h>
 
 namespace tetralux::projection {

@@ -12,8 +12,8 @@
 #include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
 
-#include <mesh/cell_tree.h>
-#include <mesh/triangle_tree.h>
+#include <mesh/tet/cell_tree.h>
+#include <mesh/tet/triangle_tree.h>
 #include <preint/exact_integral.h>
 
 namespace tetralux::projection {
@@ -155,7 +155,7 @@ private:
     const bool scaleInvariant_;
 };
 
-/// No component zero, so that boxes can be cut (mesh/cell_tree.h).
+/// No component zero, so that boxes can be cut (mesh/tet/cell_tree.h).
 glm::dvec3 unitWithoutZeros(glm::dvec3 direction) {
     direction = glm::normalize(direction);
     for (int axis = 0; axis < 3; ++axis)

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include <projection/scene.h>
+#include <projection/core/scene.h>
 
 namespace tetralux::projection {
 

@@ -5,9 +5,9 @@
 
 #include <glm/geometric.hpp>
 
-#include <mesh/point_cells.h>
-#include <projection/modes.h>
-#include <projection/scene_units.h>
+#include <mesh/tet/point_cells.h>
+#include <projection/core/modes.h>
+#include <projection/core/scene_units.h>
 #include <shading/vertex_gradients.h>
 
 namespace tetralux::projection {

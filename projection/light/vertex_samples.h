@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <projection/scene.h>
+#include <projection/core/scene.h>
 
 namespace tetralux::projection {
 

@@ -12,12 +12,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include <mesh/plane_cut.h>
+#include <mesh/tet/plane_cut.h>
 #include <projection/cells/point_pixel.h>
+#include <projection/cells/ray_triangle.h>
 #include <projection/light/arriving_light.h>
 #include <projection/light/corner_normals.h>
-#include <projection/opaque/ray_triangle.h>
-#include <projection/opaque/veiled_volume.h>
 
 namespace tetralux::projection {
 

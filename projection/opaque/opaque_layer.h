@@ -11,11 +11,11 @@
 
 #include <glm/vec3.hpp>
 
-#include <projection/camera.h>
+#include <projection/core/camera.h>
+#include <projection/core/pixel_maps.h>
+#include <projection/core/scene.h>
 #include <projection/light/light_shadows.h>
 #include <projection/opaque/opaque_objects.h>
-#include <projection/pixel_maps.h>
-#include <projection/scene.h>
 
 namespace tetralux::projection {
 

@@ -6,7 +6,7 @@
 
 #include <glm/vec3.hpp>
 
-#include <mesh/surface_mesh.h>
+#include <mesh/tet/surface_mesh.h>
 
 namespace tetralux::projection {
 

@@ -15,7 +15,7 @@
 #include <glm/geometric.hpp>
 
 #include <projection/cells/cell_setup.h>
-#include <projection/order/edge_side.h>
+#include <projection/cells/edge_side.h>
 
 namespace tetralux::projection {
 

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include <mesh/adjacency.h>
-#include <mesh/tet_mesh.h>
+#include <mesh/tet/adjacency.h>
+#include <mesh/tet/tet_mesh.h>
 #include <projection/cells/camera_points.h>
 
 namespace tetralux::projection {

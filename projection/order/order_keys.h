@@ -8,9 +8,9 @@
 
 #include <glm/vec4.hpp>
 
-#include <mesh/tet_mesh.h>
-#include <projection/camera.h>
-#include <projection/diagonal_units.h>
+#include <mesh/tet/tet_mesh.h>
+#include <projection/core/camera.h>
+#include <projection/core/diagonal_units.h>
 
 namespace tetralux::projection {
 

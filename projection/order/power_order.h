@@ -16,8 +16,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <mesh/adjacency.h>
-#include <mesh/tet_mesh.h>
+#include <mesh/tet/adjacency.h>
+#include <mesh/tet/tet_mesh.h>
 
 namespace tetralux::projection {
 

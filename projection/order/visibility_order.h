@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include <mesh/adjacency.h>
-#include <mesh/tet_mesh.h>
+#include <mesh/tet/adjacency.h>
+#include <mesh/tet/tet_mesh.h>
 #include <projection/cells/cell_setup.h>
+#include <projection/core/scene.h>
 #include <projection/order/order_keys.h>
-#include <projection/scene.h>
 
 namespace tetralux::projection {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <mesh/adjacency.h>
+#include <mesh/tet/adjacency.h>
 #include <projection/cells/cell_setup.h>
 #include <projection/order/rounded_planes.h>
 

@@ -10,7 +10,7 @@
 #include <glm/common.hpp>
 
 #include <projection/cells/projected_cell.h>
-#include <projection/opaque/ray_triangle.h>
+#include <projection/cells/ray_triangle.h>
 #include <projection/reference/reference_ray_caster.h>
 
 namespace tetralux::projection {

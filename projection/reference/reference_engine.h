@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <projection/engine.h>
+#include <projection/core/engine.h>
 
 namespace tetralux::projection {
 

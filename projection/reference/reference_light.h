@@ -3,7 +3,7 @@
 /// Internal: light of one segment in double precision, straight from the scene's settings.
 #pragma once
 
-#include <projection/scene.h>
+#include <projection/core/scene.h>
 
 namespace tetralux::projection {
 

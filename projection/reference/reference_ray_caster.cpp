@@ -16,16 +16,16 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include <mesh/cell_slope.h>
+#include <mesh/tet/cell_slope.h>
 #include <projection/cells/cell_setup.h>
 #include <projection/cells/cell_shading.h>
+#include <projection/core/lowered_isosurfaces.h>
 #include <projection/light/light_frame.h>
-#include <projection/order/isosurface_ties.h>
-#include <projection/order/pixel_candidates.h>
-#include <projection/order/wanted_pixels.h>
+#include <projection/reference/pixel_candidates.h>
 #include <projection/reference/reference_cut.h>
 #include <projection/reference/reference_light.h>
 #include <projection/reference/reference_segment.h>
+#include <projection/reference/wanted_pixels.h>
 
 namespace tetralux::projection {
 

@@ -13,10 +13,10 @@
 #include <glm/vec4.hpp>
 
 #include <preint/exact_integral.h>
-#include <projection/camera.h>
+#include <projection/core/camera.h>
+#include <projection/core/pixel_maps.h>
+#include <projection/core/scene.h>
 #include <projection/image/image.h>
-#include <projection/pixel_maps.h>
-#include <projection/scene.h>
 
 namespace tetralux::projection {
 

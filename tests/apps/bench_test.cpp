@@ -14,7 +14,7 @@
 #include <apps/bench_statistics.h>
 #include <apps/bench_vtk_rows.h>
 #include <apps/plot.h>
-#include <mesh/procedural_field.h>
+#include <mesh/tet/procedural_field.h>
 #include <preint/exact_integral.h>
 
 namespace tetralux::apps {

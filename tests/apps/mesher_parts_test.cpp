@@ -12,7 +12,7 @@
 #include <fstream>
 #include <random>
 
-#include <mesh/procedural_field.h>
+#include <mesh/tet/procedural_field.h>
 
 #include <apps/mesher/carry_field.h>
 #include <apps/mesher/child_process.h>

@@ -17,7 +17,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <mesh/read_mesh.h>
+#include <mesh/io/read_mesh.h>
 #include <tests/support/program.h>
 
 #include <apps/mesher/surface_defects.h>

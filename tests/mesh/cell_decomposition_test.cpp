@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <glm/vec2.hpp>
 
-#include <mesh/adjacency.h>
-#include <mesh/mesh_statistics.h>
-#include <mesh/validation.h>
+#include <mesh/soup/validation.h>
+#include <mesh/tet/adjacency.h>
+#include <mesh/tet/mesh_statistics.h>
 
 #include "cube_cells.h"
 

@@ -8,8 +8,8 @@
 #include <map>
 #include <vector>
 
-#include <mesh/reference_lattice.h>
-#include <mesh/shape_functions.h>
+#include <mesh/soup/reference_lattice.h>
+#include <mesh/soup/shape_functions.h>
 
 #include "mesh_checks.h"
 

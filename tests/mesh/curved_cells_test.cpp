@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <map>
 
-#include <mesh/mesh_statistics.h>
-#include <mesh/reference_lattice.h>
-#include <mesh/shape_functions.h>
-#include <mesh/validation.h>
+#include <mesh/soup/reference_lattice.h>
+#include <mesh/soup/shape_functions.h>
+#include <mesh/soup/validation.h>
+#include <mesh/tet/mesh_statistics.h>
 
 #include "cube_cells.h"
 

@@ -22,8 +22,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <mesh/mesh_statistics.h>
-#include <mesh/read_mesh.h>
+#include <mesh/io/read_mesh.h>
+#include <mesh/tet/mesh_statistics.h>
 
 namespace tetralux::mesh::test {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Image volumes whose value is linear in i, j and k, in every form, and where they lie.
-#include <mesh/parse_mesh.h>
+#include <mesh/io/parse_mesh.h>
 
-#include <mesh/validation.h>
+#include <mesh/soup/validation.h>
 
 #include <fmt/format.h>
 

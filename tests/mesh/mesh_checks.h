@@ -16,10 +16,10 @@
 
 #include <gtest/gtest.h>
 
-#include <mesh/cell_soup.h>
-#include <mesh/cell_types.h>
-#include <mesh/read_mesh.h>
-#include <mesh/tet_mesh.h>
+#include <mesh/io/read_mesh.h>
+#include <mesh/soup/cell_soup.h>
+#include <mesh/soup/cell_types.h>
+#include <mesh/tet/tet_mesh.h>
 
 namespace tetralux::mesh::test {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Marching tetrahedra and boundaries: closed, the right way round, and of the size that closed forms give.
-#include <mesh/mesh_cut.h>
+#include <mesh/tet/mesh_cut.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include <mesh/field_surface.h>
+#include <mesh/tet/field_surface.h>
 #include <tests/support/analytic_scenes.h>
 
 namespace tetralux::mesh {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <mesh/mesh_statistics.h>
+#include <mesh/tet/mesh_statistics.h>
 
 #include <limits>
 #include <random>
 
-#include <mesh/procedural_field.h>
+#include <mesh/tet/procedural_field.h>
 
 #include "mesh_checks.h"
 

@@ -13,9 +13,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <mesh/appended_vtu.h>
-#include <mesh/parse_mesh.h>
-#include <mesh/validation.h>
+#include <mesh/io/appended_vtu.h>
+#include <mesh/io/parse_mesh.h>
+#include <mesh/soup/validation.h>
 
 namespace {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <mesh/parse_mesh.h>
+#include <mesh/io/parse_mesh.h>
 
 #include <map>
 
 #include <fmt/format.h>
 
-#include <mesh/gmsh_elements.h>
-#include <mesh/shape_functions.h>
-#include <mesh/validation.h>
+#include <mesh/io/gmsh_elements.h>
+#include <mesh/soup/shape_functions.h>
+#include <mesh/soup/validation.h>
 
 #include "mesh_checks.h"
 

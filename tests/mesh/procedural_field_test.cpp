@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <mesh/procedural_field.h>
+#include <mesh/tet/procedural_field.h>
 
 #include <numbers>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <mesh/read_mesh.h>
+#include <mesh/io/read_mesh.h>
 
-#include <mesh/procedural_field.h>
-#include <mesh/write_vtu.h>
+#include <mesh/io/write_vtu.h>
+#include <mesh/tet/procedural_field.h>
 
 #include <fmt/format.h>
 

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <stdexcept>
 
-#include <mesh/mesh_statistics.h>
-#include <mesh/validation.h>
+#include <mesh/soup/validation.h>
+#include <mesh/tet/mesh_statistics.h>
 
 namespace {
 

@@ -9,8 +9,8 @@
 #include <unistd.h>
 #include <glm/geometric.hpp>
 
-#include <mesh/plane_cut.h>
-#include <mesh/read_surface.h>
+#include <mesh/io/read_surface.h>
+#include <mesh/tet/plane_cut.h>
 #include <tests/support/analytic_scenes.h>
 
 namespace tetralux::mesh {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <mesh/validation.h>
+#include <mesh/soup/validation.h>
 
 #include <limits>
 
-#include <mesh/adjacency.h>
-#include <mesh/procedural_field.h>
+#include <mesh/tet/adjacency.h>
+#include <mesh/tet/procedural_field.h>
 
 #include "mesh_checks.h"
 

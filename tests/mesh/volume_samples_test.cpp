@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <mesh/volume_samples.h>
+#include <mesh/tet/volume_samples.h>
 
 #include <numeric>
 
-#include <mesh/procedural_field.h>
+#include <mesh/tet/procedural_field.h>
 
 #include "mesh_checks.h"
 

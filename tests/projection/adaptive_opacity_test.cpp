@@ -3,9 +3,9 @@
 // Locally adaptive opacity: closed forms on boxes, independence of the mesh's resolution, engines against each other.
 #include <gtest/gtest.h>
 
-#include <mesh/read_mesh.h>
-#include <projection/adaptive_opacity.h>
-#include <projection/amount_map.h>
+#include <mesh/io/read_mesh.h>
+#include <projection/frame/adaptive_opacity.h>
+#include <projection/frame/amount_map.h>
 #include <tests/support/analytic_scenes.h>
 #include <tests/support/engine_pictures.h>
 

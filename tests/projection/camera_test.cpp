@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include <projection/camera.h>
+#include <projection/core/camera.h>
 
 namespace tetralux::projection {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include <mesh/adjacency.h>
+#include <mesh/tet/adjacency.h>
 #include <projection/cells/cell_interval.h>
 #include <projection/cells/cell_setup.h>
 #include <projection/reference/reference_ray_caster.h>

@@ -13,11 +13,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include <mesh/procedural_field.h>
+#include <mesh/tet/procedural_field.h>
 #include <projection/cells/cell_setup.h>
 #include <projection/cpu/cpu_engine.h>
-#include <projection/order/exact_repair.h>
 #include <projection/reference/reference_ray_caster.h>
+#include <projection/repair/exact_repair.h>
 #include <tests/support/analytic_scenes.h>
 #include <tests/support/cpu_pictures.h>
 #include <tests/support/engine_pictures.h>

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include <mesh/procedural_field.h>
+#include <mesh/tet/procedural_field.h>
 #include <projection/cpu/cpu_engine.h>
 #include <tests/support/analytic_scenes.h>
 #include <tests/support/cpu_pictures.h>

@@ -7,8 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include <mesh/procedural_field.h>
-#include <mesh/read_mesh.h>
+#include <mesh/io/read_mesh.h>
+#include <mesh/tet/procedural_field.h>
+#include <projection/frame/engine_registry.h>
 #include <projection/gl/gl_engine.h>
 #include <projection/reference/reference_ray_caster.h>
 #include <tests/support/analytic_scenes.h>

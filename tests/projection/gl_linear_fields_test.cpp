@@ -3,7 +3,7 @@
 // A linear field on cells of every type, by the OpenGL engine in each kind of context.
 #include <gtest/gtest.h>
 
-#include <projection/engine.h>
+#include <projection/frame/engine_registry.h>
 
 #include "linear_field_scenes.h"
 

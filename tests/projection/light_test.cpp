@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include <projection/engine.h>
+#include <projection/frame/engine_registry.h>
 #include <projection/image/image_structure.h>
 #include <projection/light/light_frame.h>
 #include <projection/reference/reference_ray_caster.h>

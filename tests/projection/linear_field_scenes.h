@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <mesh/validation.h>
+#include <mesh/soup/validation.h>
 #include <projection/reference/reference_ray_caster.h>
 #include <tests/mesh/cube_cells.h>
 #include <tests/support/analytic_scenes.h>

@@ -3,7 +3,7 @@
 // A linear field on cells of every type, by the reference and by the tile engine.
 #include <gtest/gtest.h>
 
-#include <projection/engine.h>
+#include <projection/frame/engine_registry.h>
 
 #include "linear_field_scenes.h"
 

@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include <preint/exact_integral.h>
-#include <projection/engine.h>
+#include <projection/frame/engine_registry.h>
 #include <tests/support/analytic_scenes.h>
 
 namespace tetralux::projection {

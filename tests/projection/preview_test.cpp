@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <projection/preview.h>
+#include <projection/frame/engine_registry.h>
+#include <projection/frame/preview.h>
 
 #include <cmath>
 #include <thread>
@@ -7,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include <mesh/coarse_mesh.h>
+#include <mesh/tet/coarse_mesh.h>
 #include <tests/support/analytic_scenes.h>
 
 namespace tetralux::projection {

@@ -7,8 +7,9 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include <mesh/read_mesh.h>
-#include <projection/clip_region.h>
+#include <mesh/io/read_mesh.h>
+#include <projection/core/clip_region.h>
+#include <projection/frame/engine_registry.h>
 #include <tests/support/analytic_scenes.h>
 #include <tests/support/engine_pictures.h>
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include <mesh/read_mesh.h>
+#include <mesh/io/read_mesh.h>
 #include <preint/equidistant_isosurfaces.h>
 #include <tests/support/analytic_scenes.h>
 #include <tests/support/engine_pictures.h>

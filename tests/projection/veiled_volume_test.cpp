@@ -2,7 +2,7 @@
 //
 // Slices that let part of the volume behind them through, colours that tell the distance, shadows of opaque surfaces:
 // closed forms in every engine, and every engine against the reference.
-#include <projection/opaque/veiled_volume.h>
+#include <projection/frame/veiled_volume.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include <mesh/read_mesh.h>
+#include <mesh/io/read_mesh.h>
 #include <preint/exact_integral.h>
-#include <projection/clip_region.h>
+#include <projection/core/clip_region.h>
 #include <projection/light/light_frame.h>
 #include <projection/opaque/opaque_layer.h>
 #include <tests/support/analytic_scenes.h>

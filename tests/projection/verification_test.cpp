@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <projection/frame/verification.h>
 #include <projection/reference/reference_ray_caster.h>
-#include <projection/verification.h>
 #include <tests/support/analytic_scenes.h>
 
 namespace tetralux::projection {

@@ -12,13 +12,14 @@
 
 #include <projection/cells/cell_setup.h>
 #include <projection/cells/edge_on_planes.h>
+#include <projection/frame/engine_registry.h>
 #include <projection/order/boundary_reentry.h>
-#include <projection/order/exact_repair.h>
 #include <projection/order/key_sort.h>
 #include <projection/order/order_upkeep.h>
 #include <projection/order/power_order.h>
 #include <projection/order/visibility_order.h>
 #include <projection/reference/reference_ray_caster.h>
+#include <projection/repair/exact_repair.h>
 #include <tests/support/analytic_scenes.h>
 
 namespace tetralux::projection {

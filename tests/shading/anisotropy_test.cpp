@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include <mesh/point_cells.h>
+#include <mesh/tet/point_cells.h>
 #include <shading/anisotropy.h>
 #include <shading/level_set_points.h>
 #include <shading/vertex_gradients.h>

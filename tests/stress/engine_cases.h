@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include <projection/engine.h>
+#include <projection/frame/engine_registry.h>
 #include <projection/reference/reference_ray_caster.h>
 #include <tests/support/analytic_scenes.h>
 

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include <mesh/cell_slope.h>
+#include <mesh/tet/cell_slope.h>
 #include <projection/cells/cell_setup.h>
 #include <tests/stress/engine_cases.h>
 

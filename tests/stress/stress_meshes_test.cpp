@@ -8,7 +8,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include <mesh/validation.h>
+#include <mesh/soup/validation.h>
+#include <projection/frame/engine_registry.h>
 #include <tests/stress/engine_cases.h>
 
 namespace tetralux::projection {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
+#include <projection/frame/engine_registry.h>
 #include <tests/stress/engine_cases.h>
 #include <tests/stress/order_scenes.h>
 

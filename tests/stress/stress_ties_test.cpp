@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <projection/frame/engine_registry.h>
 #include <projection/reference/reference_cut.h>
 #include <tests/stress/engine_cases.h>
 

@@ -8,11 +8,11 @@
 #include <random>
 #include <vector>
 
-#include <mesh/procedural_field.h>
-#include <mesh/tet_mesh.h>
+#include <mesh/tet/procedural_field.h>
+#include <mesh/tet/tet_mesh.h>
 #include <preint/transfer_function.h>
-#include <projection/camera.h>
-#include <projection/scene.h>
+#include <projection/core/camera.h>
+#include <projection/core/scene.h>
 
 namespace tetralux::test {
 

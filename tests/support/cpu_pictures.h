@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include <projection/camera.h>
+#include <projection/core/camera.h>
+#include <projection/core/scene.h>
 #include <projection/cpu/cpu_engine.h>
 #include <projection/image/image.h>
-#include <projection/scene.h>
 #include <tests/support/engine_pictures.h>
 
 namespace tetralux::test {

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include <projection/engine.h>
+#include <projection/frame/engine_registry.h>
 #include <projection/reference/reference_ray_caster.h>
 
 namespace tetralux::test {

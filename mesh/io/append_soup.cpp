@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <limits>
+
+#include <mesh/io/vtk_soup.h>
+
+namespace tetralux::mesh {
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+std::size_t placesOf(const CellSoup& soup, Association association) {
+    return association == Association::Point ? soup.points.size() : soup.types.size();
+}
+
+void appendFields(CellSoup& soup, CellSoup& other) {
+    const auto matches = [](const Field& a, const Field& b) {
+        return a.name == b.name && a.association == b.association && a.components == b.components;
+    };
+    for (Field& field : soup.fields) {
+        const auto found =
+            std::find_if(other.fields.begin(), other.fields.end(), [&](const Field& f) { return matches(f, field); });
+        if (found != other.fields.end()) {
+            field.values.insert(field.values.end(), found->values.begin(), found->values.end());
+            other.fields.erase(found);
+        } else {
+            const std::size_t added = placesOf(other, field.association) * static_cast<std::size_t>(field.components);
+            field.values.resize(field.values.size() + added, missing);
+        }
+    }
+    for (Field& field : other.fields) {
+        const std::size_t before = placesOf(soup, field.association) * static_cast<std::size_t>(field.components);
+        field.values.insert(field.values.begin(), before, missing);
+        soup.fields.push_back(std::move(field));
+    }
+}
+
+void appendPolyhedra(CellSoup& soup, const CellSoup& other, std::uint32_t shift) {
+    if (soup.faceOffsets.empty() && other.faceOffsets.empty()) {
+        return;
+    }
+    soup.faceOffsets.resize(soup.types.size() + 1, soup.faceStream.size());
+    const std::uint64_t before = soup.faceStream.size();
+    for (std::size_t cell = 0; cell < other.types.size(); ++cell) {
+        const bool any = !other.faceOffsets.empty();
+        soup.faceOffsets.push_back(before + (any ? other.faceOffsets[cell + 1] : 0));
+    }
+    soup.faceStream.insert(soup.faceStream.end(), other.faceStream.begin(), other.faceStream.end());
+    for (std::uint64_t at = before; at < soup.faceStream.size();) {
+        const std::uint64_t points = soup.faceStream[at++];
+        for (std::uint64_t k = 0; k < points && at < soup.faceStream.size(); ++k, ++at) {
+            soup.faceStream[at] =
+                soup.faceStream[at] >= other.points.size() ? CellSoup::invalidPoint : soup.faceStream[at] + shift;
+        }
+    }
+}
+
+}  // namespace
+
+void appendSoup(CellSoup& soup, CellSoup&& other) {
+    if (soup.points.empty() && soup.types.empty() && soup.fields.empty()) {
+        soup = std::move(other);
+        return;
+    }
+    const std::uint32_t shift = static_cast<std::uint32_t>(soup.points.size());
+    appendFields(soup, other);
+    appendPolyhedra(soup, other, shift);
+    if (!soup.hidden.empty() || !other.hidden.empty()) {
+        soup.hidden.resize(soup.types.size(), 0);
+        other.hidden.resize(other.types.size(), 0);
+        soup.hidden.insert(soup.hidden.end(), other.hidden.begin(), other.hidden.end());
+    }
+    if (soup.offsets.empty()) {
+        soup.offsets.push_back(0);
+    }
+    const std::uint64_t before = soup.connectivity.size();
+    for (std::size_t cell = 0; cell < other.types.size(); ++cell) {
+        soup.offsets.push_back(before + other.offsets[cell + 1]);
+    }
+    for (const std::uint32_t p : other.connectivity) {
+        soup.connectivity.push_back(p >= other.points.size() ? CellSoup::invalidPoint : p + shift);
+    }
+    soup.points.insert(soup.points.end(), other.points.begin(), other.points.end());
+    soup.types.insert(soup.types.end(), other.types.begin(), other.types.end());
+}
+
+}  // namespace tetralux::mesh

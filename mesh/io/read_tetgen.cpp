@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include <mesh/io/file_checks.h>
+#include <mesh/io/mesh_format.h>
+#include <mesh/io/parse_mesh.h>
+#include <mesh/io/text_scanner.h>
+#include <mesh/soup/cell_types.h>
+
+namespace tetralux::mesh {
+namespace {
+
+/// Empty fields for the values that stand behind a point or cell.
+void addFields(CellSoup& soup, const char* name, Association association, std::size_t count, std::size_t places) {
+    for (std::size_t i = 0; i < count; ++i) {
+        Field field;
+        field.name = count == 1 ? name : fmt::format("{} {}", name, i + 1);
+        field.association = association;
+        field.values.reserve(places);
+        soup.fields.push_back(std::move(field));
+    }
+}
+
+/// \returns the number of the first point, 0 or 1, which cells count from.
+std::int64_t parseNodes(TextScanner& scan, CellSoup& soup) {
+    const std::size_t points = scan.count("the number of points", 7);
+    if (scan.integer("the dimension") != 3) {
+        scan.fail("has points of a dimension other than 3");
+    }
+    const std::size_t attributes = scan.count("the number of attributes", 1);
+    const bool markers = scan.integer("the flag of boundary markers") != 0;
+    addFields(soup, "attribute", Association::Point, attributes, points);
+    std::int64_t first = 0;
+    soup.points.reserve(points);
+    for (std::size_t i = 0; i < points; ++i) {
+        const std::int64_t number = scan.integer("the number of a point");
+        first = i == 0 ? number : first;
+        glm::dvec3 x;
+        for (int axis = 0; axis < 3; ++axis) {
+            x[axis] = scan.number("a coordinate");
+        }
+        soup.points.push_back(x);
+        for (Field& field : soup.fields) {
+            field.values.push_back(scan.number("an attribute"));
+        }
+        if (markers) {
+            scan.word("a boundary marker");
+        }
+    }
+    return first;
+}
+
+void parseElements(TextScanner& scan, std::int64_t firstPoint, CellSoup& soup) {
+    const std::size_t cells = scan.count("the number of tetrahedra", 9);
+    const std::int64_t corners = scan.integer("the number of points of a tetrahedron");
+    if (corners != 4 && corners != 10) {
+        scan.fail(fmt::format("has cells of {} points where TetGen writes 4 or 10", corners));
+    }
+    const std::size_t attributes = scan.count("the number of region attributes", 1);
+    const std::size_t pointFields = soup.fields.size();
+    addFields(soup, "region", Association::Cell, attributes, cells);
+    for (std::size_t i = 0; i < cells; ++i) {
+        scan.integer("the number of a tetrahedron");
+        std::array<std::uint32_t, 4> ids{};
+        for (std::int64_t k = 0; k < corners; ++k) {
+            const std::int64_t id = scan.integer("a point of a tetrahedron") - firstPoint;
+            if (k < 4) {  // the others are the middles of straight edges
+                const bool known = id >= 0 && static_cast<std::uint64_t>(id) < soup.points.size();
+                ids[static_cast<std::size_t>(k)] = known ? static_cast<std::uint32_t>(id) : CellSoup::invalidPoint;
+            }
+        }
+        appendCell(soup, cell_type::tetrahedron, ids);
+        for (std::size_t a = 0; a < attributes; ++a) {
+            soup.fields[pointFields + a].values.push_back(scan.number("a region attribute"));
+        }
+    }
+}
+
+bool acceptsTetgen(const std::string& source) {
+    return hasExtension(source, {".node", ".ele"});
+}
+
+CellSoup readTetgen(const std::string& source, const ReadOptions&) {
+    const std::string stem = source.substr(0, source.rfind('.'));
+    const std::string nodes = stem + ".node";
+    const std::string elements = stem + ".ele";
+    return parseTetgen(readWholeFile(nodes), nodes, readWholeFile(elements), elements);
+}
+
+}  // namespace
+
+CellSoup parseTetgen(std::string_view nodes, const std::string& nodeSource, std::string_view elements,
+                     const std::string& elementSource) {
+    CellSoup soup;
+    TextScanner nodeScan(nodes, nodeSource, '#');
+    const std::int64_t first = parseNodes(nodeScan, soup);
+    TextScanner elementScan(elements, elementSource, '#');
+    parseElements(elementScan, first, soup);
+    return soup;
+}
+
+const MeshFormat tetgenFormat{"TetGen", ".node with .ele", acceptsTetgen, readTetgen};
+
+}  // namespace tetralux::mesh

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// What the readers built on VTK share. VTK's own headers stay in .cpp files.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <mesh/soup/cell_soup.h>
+
+class vtkAlgorithm;
+class vtkDataObject;
+
+namespace tetralux::mesh {
+
+/// Cells, points and numeric arrays of a data set; those of all its leaves, one behind the other, if it is composite.
+/// Structured grids and images become voxels and hexahedra. Ghost and blanked cells are marked hidden.
+/// \throws std::runtime_error if the object is of a kind without cells.
+CellSoup soupFromVtk(vtkDataObject* data);
+
+/// Updates `reader`, at the time step nearest to `time` if it has several, and converts its first output. VTK's
+/// messages are collected, not printed, from the first call on, so call it within `readIsolated` only. \throws
+/// std::runtime_error with the reader's first error message and a remedy, without the name of the file.
+CellSoup soupFromReader(vtkAlgorithm& reader, std::optional<double> time);
+
+/// The one of `times` nearest to `wanted`, the first if nothing is wanted. `times` must not be empty.
+double nearestTime(const std::vector<double>& times, std::optional<double> wanted);
+
+/// From now on VTK prints nothing and `throwOnVtkError` knows its messages.
+void captureVtkMessages();
+
+/// \throws std::runtime_error if VTK reported an error since `captureVtkMessages`.
+void throwOnVtkError();
+
+/// Appends `other` to `soup`. A field that only one of them has is NaN in the other.
+void appendSoup(CellSoup& soup, CellSoup&& other);
+
+}  // namespace tetralux::mesh

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// From a mesh with all its fields to the one scalar that is drawn.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <mesh/tet/mesh_report.h>
+#include <mesh/tet/tet_mesh.h>
+
+namespace tetralux::mesh {
+
+/// Larger magnitudes stand for no value, as NaN does: the integrals need products with lengths and differences.
+inline constexpr double largestScalar = 1e280;
+
+struct ScalarSelection {
+    ScalarMesh mesh;
+    std::string fieldName;             ///< the field taken, with component: "Velocity (magnitude)"
+    std::uint64_t nonFiniteCells = 0;  ///< cells left out because a scalar of theirs is NaN, infinite or beyond 1e280
+};
+
+/// Takes one scalar of `mesh`: `name` alone (vectors by magnitude), "name:0" or "name:x" (a component), or ""
+/// for the first point field, else the first cell field (numbers of points or cells do not count), else the coordinate
+/// along which the mesh is longest. "x", "y" and "z" are the coordinates unless a field is called so. Consumes the mesh
+/// so that nothing is copied. Cells with a non-finite scalar are left out and counted in `report`. \throws
+/// std::runtime_error listing the fields there are when the name is wrong or no cell is left.
+ScalarSelection selectScalar(TetMesh&& mesh, const std::string& name, MeshReport& report);
+
+}  // namespace tetralux::mesh

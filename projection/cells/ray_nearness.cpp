@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/cells/ray_nearness.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
+
+namespace tetralux::projection {
+
+namespace {
+
+/// Least reference depth, scene lengths.
+constexpr double leastDepthReference = 0.5;
+
+float nearnessOf(double depth, double depthReference, bool orthographic) {
+    const double most = static_cast<double>(noNearnessLimit);
+    double nearness = depthReference - depth;
+    if (!orthographic) nearness = depth > 0 ? nearness / depth : most;
+    return static_cast<float>(std::clamp(nearness, -most, most));
+}
+
+}  // namespace
+
+NearnessMaps nearnessMaps(const PixelMaps& maps, const CameraFrame& frame, const SceneUnits& units,
+                          double depthReference) {
+    const auto width = static_cast<std::size_t>(frame.width), height = static_cast<std::size_t>(frame.height);
+    NearnessMaps result;
+    result.nearest.resize(maps.nearest.size());
+    result.farthest.resize(maps.farthest.size());
+    tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
+        for (std::size_t x = 0; x < width; ++x) {
+            const std::size_t i = y * width + x;
+            const glm::dvec2 fromAxis = glm::dvec2(static_cast<double>(x), static_cast<double>(y)) - frame.centre;
+            const double rayLength = frame.orthographic
+                                         ? 1.0
+                                         : std::sqrt(1.0 + glm::dot(frame.perPixelRight, frame.perPixelRight) *
+                                                               glm::dot(fromAxis, fromAxis));
+            const auto at = [&](double distance) {
+                return nearnessOf(distance / units.length / rayLength, depthReference, frame.orthographic);
+            };
+            // what lies before the eye limits nothing there
+            if (!maps.nearest.empty()) result.nearest[i] = maps.nearest[i] > 0 ? at(maps.nearest[i]) : noNearnessLimit;
+            if (!maps.farthest.empty())
+                result.farthest[i] = std::isinf(maps.farthest[i]) ? -noNearnessLimit : at(maps.farthest[i]);
+        }
+    });
+    return result;
+}
+
+double depthReferenceOf(const mesh::BoundingBox& bounds, const CameraFrame& frame, const SceneUnits& units) {
+    const double middle = glm::dot(bounds.centre() - frame.eye, frame.forward) / units.length;
+    return frame.orthographic ? middle : std::max(middle, leastDepthReference);
+}
+
+}  // namespace tetralux::projection

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/core/pixel_maps.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace tetralux::projection {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::size_t pixelCount(const Camera& camera) {
+    return static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+}
+
+}  // namespace
+
+void cutNearer(const Camera& camera, PixelMaps& maps, std::size_t pixel, double distance, const glm::vec3& normal) {
+    if (maps.nearest.empty()) maps.nearest.assign(pixelCount(camera), 0.0);
+    if (maps.nearestNormal.empty()) maps.nearestNormal.assign(pixelCount(camera), glm::vec3(0));
+    if (!(distance > maps.nearest[pixel])) return;
+    maps.nearest[pixel] = distance;
+    maps.nearestNormal[pixel] = normal;
+}
+
+void cutFarther(const Camera& camera, PixelMaps& maps, std::size_t pixel, double distance) {
+    if (maps.farthest.empty()) maps.farthest.assign(pixelCount(camera), infinity);
+    if (distance < maps.farthest[pixel]) maps.farthest[pixel] = distance;
+}
+
+void putOpaque(const Camera& camera, PixelMaps& maps, std::size_t pixel, double distance, const glm::vec3& color) {
+    if (maps.farthest.empty()) maps.farthest.assign(pixelCount(camera), infinity);
+    if (maps.behind.empty()) maps.behind.assign(pixelCount(camera), glm::vec4(0));
+    // what clip planes leave out behind may be hidden by something opaque still farther away: that shows
+    if (maps.behind[pixel].a == 1.0f && !(distance < maps.farthest[pixel])) return;
+    cutFarther(camera, maps, pixel, distance);
+    maps.behind[pixel] = glm::vec4(color, 1.0f);
+}
+
+void checkPixelMaps(const View& view) {
+    if (view.maps == nullptr) return;
+    const std::size_t wanted = pixelCount(view.camera);
+    const auto check = [&](const char* name, std::size_t size) {
+        if (size != 0 && size != wanted)
+            throw std::runtime_error(
+                fmt::format("pixel map '{}': {} values for an image of {}x{}; give one per pixel or none", name, size,
+                            view.camera.width, view.camera.height));
+    };
+    check("nearest", view.maps->nearest.size());
+    check("farthest", view.maps->farthest.size());
+    check("nearestNormal", view.maps->nearestNormal.size());
+    check("extinctionScale", view.maps->extinctionScale.size());
+    check("behind", view.maps->behind.size());
+    const std::vector<Veil>& veils = view.maps->veils;
+    if (!std::is_sorted(veils.begin(), veils.end()) || (!veils.empty() && veils.back().pixel >= wanted))
+        throw std::runtime_error(fmt::format(
+            "pixel map 'veils': not ascending within an image of {}x{}; sort them by pixel, then by distance",
+            view.camera.width, view.camera.height));
+}
+
+void composeBehind(Image& image, const PixelMaps& maps) {
+    for (std::size_t i = 0; i < maps.behind.size(); ++i) {
+        glm::vec4& pixel = image.pixels[i];
+        pixel += (1.0f - pixel.a) * maps.behind[i];
+    }
+}
+
+}  // namespace tetralux::projection

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// What depends on the pixel: where its ray may see the volume, how opaque the volume is there, and what lies behind.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <projection/core/camera.h>
+#include <projection/image/image.h>
+
+namespace tetralux::projection {
+
+/// Something that lets part of what is behind it through: a slice with opacity.
+struct Veil {
+    std::uint32_t pixel;  ///< y·width + x
+    double distance;      ///< along the unit ray, mesh units
+    glm::vec4 color;      ///< premultiplied RGBA
+
+    /// By pixel, then from the eye on.
+    bool operator<(const Veil& other) const {
+        return pixel != other.pixel ? pixel < other.pixel : distance < other.distance;
+    }
+};
+
+/// Each vector but `veils` is empty (nothing) or has width·height elements, row-major, row 0 at the top. Engines honour
+/// all but `behind`, which composes the finished volume (view_maps.h), and `veils`, between which it is drawn part by
+/// part (veiled_volume.h); the reference honours those by itself.
+struct PixelMaps {
+    std::vector<double>
+        nearest;  ///< distance along the unit ray (mesh units) before which nothing of the volume is seen
+    std::vector<double> farthest;          ///< distance behind which nothing of the volume is seen (an opaque surface)
+    std::vector<glm::vec3> nearestNormal;  ///< world-space unit normal of what cuts the ray at `nearest`, towards the
+                                           ///< eye's side; 0: none. Light of a segment that begins at the cut uses it
+    std::vector<float> extinctionScale;    ///< factor of extinction and of the depth of isosurfaces, ≥ 0
+    std::vector<glm::vec4> behind;         ///< premultiplied RGBA put under the volume (slices, opaque surfaces)
+    std::vector<Veil> veils;               ///< within the volume, between nearest and farthest; ascending
+
+    bool empty() const {
+        return nearest.empty() && farthest.empty() && extinctionScale.empty() && behind.empty() && veils.empty();
+    }
+    /// Whether engines have to look at the maps.
+    bool changeVolume() const {
+        return !nearest.empty() || !farthest.empty() || !extinctionScale.empty() || !veils.empty();
+    }
+};
+
+/// What an engine is asked for; made implicitly of a camera alone.
+struct View {
+    Camera camera;
+    const PixelMaps* maps = nullptr;  ///< nullptr: no limits; else of the camera's size
+
+    View(const Camera& c, const PixelMaps* m = nullptr) : camera(c), maps(m) {}  // NOLINT: implicit on purpose
+};
+
+/// Adds to the maps of every frame: clip planes, opaque surfaces. Those of a scene are asked in turn.
+class PixelMapSource {
+public:
+    virtual ~PixelMapSource() = default;
+    /// Narrows `maps`: nearest may only grow, farthest only shrink. \throws std::runtime_error for what it cannot do.
+    virtual void apply(const Camera& camera, PixelMaps& maps) const = 0;
+};
+
+/// Nothing of the volume is seen at distances less than `distance`, cut by a surface of that normal.
+void cutNearer(const Camera& camera, PixelMaps& maps, std::size_t pixel, double distance, const glm::vec3& normal);
+
+/// Nothing of the volume is seen behind `distance`.
+void cutFarther(const Camera& camera, PixelMaps& maps, std::size_t pixel, double distance);
+
+/// An opaque point at `distance` with that colour (RGB, display values), where it is nearer than what is there already.
+void putOpaque(const Camera& camera, PixelMaps& maps, std::size_t pixel, double distance, const glm::vec3& color);
+
+/// \throws std::runtime_error when a vector of the maps is neither empty nor of the camera's size, or veils lie outside
+/// the image or in no order.
+void checkPixelMaps(const View& view);
+
+/// Puts `maps.behind` under the finished volume.
+void composeBehind(Image& image, const PixelMaps& maps);
+
+}  // namespace tetralux::projection

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <projection/repair/isosurface_ties.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <projection/cells/edge_on_planes.h>
+#include <projection/cells/point_pixel.h>
+#include <projection/core/transfer_support.h>
+#include <projection/repair/near_line.h>
+
+namespace tetralux::projection {
+
+namespace {
+
+/// Pixels from the sample to the farthest line that it may lie behind.
+constexpr double tieDistance = 2.0 * EdgeOnPlanes::widely.x;
+
+/// The same for lines that are met exactly, as those of symmetric scenes are: by chance hardly any is.
+constexpr double exactDistance = 1e-7;
+
+constexpr Nearness near{0.0, tieDistance}, exact{0.0, exactDistance}, nearNotExact{exactDistance, tieDistance};
+
+using Corners = std::array<glm::dvec2, 3>;
+
+/// A face as an image shows it: pixels, and scalars less the isosurface's value.
+struct SeenFace {
+    Corners at;
+    std::array<double, 3> above;
+
+    /// What is seen edge-on has no line of its own.
+    bool edgeOn() const {
+        const glm::dvec2 b = at[1] - at[0], c = at[2] - at[0];
+        const double longest = std::max({glm::length(b), glm::length(c), glm::distance(at[1], at[2])});
+        return !(std::abs(b.x * c.y - b.y * c.x) > 2.0 * tieDistance * longest);
+    }
+};
+
+void addTies(const SeenFace& face, const CameraFrame& frame, std::vector<std::uint32_t>& pixels) {
+    std::array<glm::dvec2, 2> ends;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        if ((face.above[i] < 0) == (face.above[j] < 0)) continue;
+        ends[count++] = glm::mix(face.at[i], face.at[j], face.above[i] / (face.above[i] - face.above[j]));
+        if (count == 2) break;
+    }
+    if (count == 2 && !face.edgeOn()) addNearLine(ends[0], ends[1], near, frame, pixels);
+}
+
+/// Lines of an isosurface in the faces of one cell, and its edges.
+class CellTies {
+public:
+    CellTies(const Scene& scene, const CameraFrame& frame)
+        : scene_(scene),
+          frame_(frame),
+          pixelOf_(frame),
+          support_(extinctionSupport(scene.transferFunction)),
+          integral_(integralOf(scene.settings.mode)) {}
+
+    /// Pixels that an edge of the cell, if it shows, passes.
+    void addEdges(mesh::CellIndex cell, Nearness wanted, std::vector<std::uint32_t>& pixels) const {
+        std::array<glm::dvec2, 4> at;
+        if (!see(scene_.mesh->cells[cell], at) || !shows(cell)) return;
+        for (std::size_t i = 0; i < 4; ++i)
+            for (std::size_t j = i + 1; j < 4; ++j) addNearLine(at[i], at[j], wanted, frame_, pixels);
+    }
+
+    /// Pixels near, but not on, the edges of faces that are seen edge-on.
+    void addEdgeOnFaces(mesh::CellIndex cell, std::vector<std::uint32_t>& pixels) const {
+        std::array<glm::dvec2, 4> at;
+        if (!see(scene_.mesh->cells[cell], at)) return;
+        for (const auto& face : mesh::faceVertices) {
+            SeenFace seen{};
+            for (std::size_t i = 0; i < 3; ++i) seen.at[i] = at[static_cast<std::size_t>(face[i])];
+            if (!seen.edgeOn() || !shows(cell)) continue;
+            for (std::size_t i = 0; i < 3; ++i)
+                addNearLine(seen.at[i], seen.at[(i + 1) % 3], nearNotExact, frame_, pixels);
+        }
+    }
+
+    void add(mesh::CellIndex cell, std::vector<std::uint32_t>& pixels) const {
+        const mesh::ScalarMesh& mesh = *scene_.mesh;
+        const glm::dvec2 scalars = scalarRange(mesh, cell);
+        for (const preint::Isosurface& surface : scene_.transferFunction.isosurfaces) {
+            if (!(scalars.x < surface.value && surface.value <= scalars.y)) continue;
+            std::array<glm::dvec2, 4> at;
+            if (!see(mesh.cells[cell], at)) return;
+            for (const auto& face : mesh::faceVertices) {
+                SeenFace seen;
+                for (std::size_t i = 0; i < 3; ++i) {
+                    seen.at[i] = at[static_cast<std::size_t>(face[i])];
+                    seen.above[i] = mesh.scalarAt(cell, face[i]) - surface.value;
+                }
+                addTies(seen, frame_, pixels);
+            }
+        }
+    }
+
+private:
+    bool shows(mesh::CellIndex cell) const {
+        const glm::dvec2 scalars = scalarRange(*scene_.mesh, cell);
+        return rangeShows(scene_.transferFunction, support_, scalars.x, scalars.y, integral_);
+    }
+
+    /// Pixel coordinates of the corners; false where one is not in front of the eye.
+    bool see(const mesh::Tetrahedron& cell, std::array<glm::dvec2, 4>& at) const {
+        for (std::size_t k = 0; k < 4; ++k) {
+            const glm::dvec3 p = scene_.mesh->positions[cell[k]] - frame_.eye;
+            const double depth = pixelOf_.depth(p);
+            if (!(depth > 0)) return false;
+            at[k] = pixelOf_(p, depth);
+        }
+        return true;
+    }
+
+    const Scene& scene_;
+    const CameraFrame& frame_;
+    const PointPixel pixelOf_;
+    const std::vector<glm::dvec2> support_;
+    const preint::Integral integral_;
+};
+
+/// What add(cell, pixels) finds, for every `step`th cell.
+template <class Add>
+std::vector<std::uint32_t> ofCells(const Scene& scene, mesh::CellIndex step, Add add) {
+    tbb::enumerable_thread_specific<std::vector<std::uint32_t>> found;
+    const auto count = static_cast<mesh::CellIndex>((scene.mesh->cells.size() + step - 1) / step);
+    tbb::parallel_for(tbb::blocked_range<mesh::CellIndex>(0, count, 1024), [&](const auto& range) {
+        auto& mine = found.local();
+        for (mesh::CellIndex i = range.begin(); i != range.end(); ++i) add(i * step, mine);
+    });
+    std::vector<std::uint32_t> all;
+    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> tiedPixels(const Scene& scene, const CameraFrame& frame) {
+    const CellTies ties(scene, frame);
+    return ofCells(scene, 1, [&](mesh::CellIndex cell, auto& pixels) {
+        ties.addEdgeOnFaces(cell, pixels);
+        if (!scene.transferFunction.isosurfaces.empty()) ties.add(cell, pixels);
+    });
+}
+
+std::vector<std::uint32_t> tiedEdgePixels(const Scene& scene, const CameraFrame& frame) {
+    constexpr mesh::CellIndex sampled = 4096;
+    const CellTies ties(scene, frame);
+    const mesh::CellIndex step =
+        static_cast<mesh::CellIndex>(scene.mesh->cells.size()) / sampled | 1;  // odd: in no rhythm of a grid
+    const auto met =
+        ofCells(scene, step, [&](mesh::CellIndex cell, auto& pixels) { ties.addEdges(cell, exact, pixels); });
+    if (met.size() < 2) return {};
+    return ofCells(scene, 1, [&](mesh::CellIndex cell, auto& pixels) { ties.addEdges(cell, near, pixels); });
+}
+
+}  // namespace tetralux::projection

@@ -5,6 +5,7 @@
 
 #include <mesh/tet/adjacency.h>
 #include <mesh/tet/procedural_field.h>
+#include <mesh/tet/select_scalar.h>
 
 #include "mesh_checks.h"
 

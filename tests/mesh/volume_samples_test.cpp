@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <mesh/tet/select_scalar.h>
 #include <mesh/tet/volume_samples.h>
 
 #include <numeric>

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <mesh/soup/validation.h>
+#include <mesh/tet/select_scalar.h>
 #include <projection/reference/reference_ray_caster.h>
 #include <tests/mesh/cube_cells.h>
 #include <tests/support/analytic_scenes.h>

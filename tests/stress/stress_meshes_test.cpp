@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include <mesh/soup/validation.h>
+#include <mesh/tet/select_scalar.h>
 #include <projection/frame/engine_registry.h>
 #include <tests/stress/engine_cases.h>
 

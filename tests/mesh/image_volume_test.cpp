@@ -2,6 +2,7 @@
 //
 // Image volumes whose value is linear in i, j and k, in every form, and where they lie.
 #include <mesh/io/parse_mesh.h>
+#include <mesh/io/read_mesh.h>
 
 #include <mesh/soup/validation.h>
 

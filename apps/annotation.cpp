@@ -9,6 +9,7 @@
 #include <apps/axes_box.h>
 #include <apps/nice_ticks.h>
 #include <apps/overlay.h>
+#include <projection/image/ink.h>
 
 namespace tetralux::apps {
 
@@ -24,12 +25,8 @@ struct Sizes {
           gap(0.5 * text) {}
 };
 
-glm::dvec3 inkFor(const glm::dvec3& background) {
-    return glm::dvec3(0.2126 * background.r + 0.7152 * background.g + 0.0722 * background.b > 0.5 ? 0.0 : 1.0);
-}
-
 Overlay overlayFor(const AnnotatedScene& scene, const projection::Camera& camera) {
-    return Overlay(camera.width, camera.height, inkFor(scene.background));
+    return Overlay(camera.width, camera.height, projection::inkUpon(scene.background));
 }
 
 constexpr double boxOpacity = 0.8;

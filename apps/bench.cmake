@@ -2,6 +2,10 @@
 # `tetralux bench`, the program that draws VTK's rows for it, and the kernels' benchmark.
 option(TETRALUX_BENCH_VTK "Build tetralux-bench-vtk, which draws VTK's rows of `tetralux bench`" ON)
 
+# Plots as SVG and PNG.
+add_library(tetralux_plot STATIC histogram_plot.cpp plot.cpp plot_png.cpp plot_svg.cpp)
+target_link_libraries(tetralux_plot PUBLIC tetralux_projection PRIVATE tetralux_annotation fmt::fmt PkgConfig::CAIRO)
+
 add_library(tetralux_bench STATIC
   bench_engine.cpp
   bench_machine.cpp
@@ -13,13 +17,10 @@ add_library(tetralux_bench STATIC
   bench_statistics.cpp
   bench_vtk_rows.cpp
   option_values.cpp
-  plot.cpp
-  plot_png.cpp
-  plot_svg.cpp
   run_program.cpp
 )
 target_compile_definitions(tetralux_bench PRIVATE TETRALUX_VERSION="${PROJECT_VERSION}")
-target_link_libraries(tetralux_bench PUBLIC tetralux_projection nlohmann_json::nlohmann_json PRIVATE fmt::fmt TBB::tbb PkgConfig::CAIRO)
+target_link_libraries(tetralux_bench PUBLIC tetralux_plot tetralux_projection nlohmann_json::nlohmann_json PRIVATE fmt::fmt TBB::tbb)
 
 target_sources(tetralux PRIVATE bench.cpp bench_options.cpp)
 target_link_libraries(tetralux PRIVATE tetralux_bench)

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // tetralux extract: an isosurface, a slice or the boundary of a mesh as a file of triangles.
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -16,9 +14,9 @@
 #include <apps/opaque_options.h>
 #include <apps/option_values.h>
 #include <apps/read_options.h>
+#include <mesh/io/read_mesh.h>
 #include <mesh/tet/field_surface.h>
 #include <mesh/tet/mesh_cut.h>
-#include <mesh/io/read_mesh.h>
 #include <projection/image/whole_file.h>
 
 namespace tetralux::apps {
@@ -44,10 +42,7 @@ mesh::MeshCut cutIsosurface(const mesh::TetMesh& mesh, const ExtractOptions& opt
             fmt::format("field '{}' is constant in every cell, so that no isosurface runs through any; give "
                         "--smooth-cells, which makes it linear, or a field on points with --scalar",
                         selected.fieldName));
-    std::vector<double> heights = selected.mesh.scalars;
-    for (double& height : heights)  // what stands for no value must not be interpolated
-        if (!(std::abs(height) <= mesh::largestScalar)) height = std::numeric_limits<double>::quiet_NaN();
-    mesh::MeshCut cut = mesh::cutAtLevel(mesh.positions, mesh.cells, heights, *options.isosurface);
+    mesh::MeshCut cut = mesh::cutAtLevel(mesh.positions, mesh.cells, selected.mesh.scalars, *options.isosurface);
     if (cut.triangles.empty())
         throw std::runtime_error(
             fmt::format("--isosurface {}: field '{}' does not cross it, it goes from {} to {}; give a value between",

@@ -2,7 +2,9 @@
 //
 // tetralux info: what a mesh holds, for people or (--json) for machines.
 #include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
@@ -10,6 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include <apps/commands.h>
+#include <apps/histogram_plot.h>
+#include <apps/plot.h>
 #include <apps/read_options.h>
 #include <apps/report_text.h>
 #include <mesh/io/read_mesh.h>
@@ -23,16 +27,20 @@ struct InfoOptions {
     std::string source;
     mesh::ReadOptions read;
     bool json = false;
+    std::string histogram;  ///< file; empty: none
+    std::string scalar;     ///< of the histogram; empty: the first
+    bool logarithmic = false;
 };
 
 struct Findings {
     mesh::MeshReport report;  ///< of reading, with the defects that the statistics found
     mesh::MeshStatistics statistics;
+    mesh::TetMesh mesh;
 };
 
 Findings findingsOf(const InfoOptions& options) {
-    const mesh::ReadResult source = mesh::readMesh(options.source, options.read);
-    Findings findings{source.report, mesh::meshStatistics(source.mesh)};
+    mesh::ReadResult source = mesh::readMesh(options.source, options.read);
+    Findings findings{source.report, mesh::meshStatistics(source.mesh), std::move(source.mesh)};
     // What reading has counted already is kept: it speaks of the cells of the file.
     findings.report.defects.insert(findings.statistics.defects.begin(), findings.statistics.defects.end());
     return findings;
@@ -129,8 +137,29 @@ void printInfo(const InfoOptions& options, const Findings& found) {
     for (const std::string& line : defects) fmt::print("  {}\n", line);
 }
 
+/// Of the scalar as `render` takes it.
+void drawHistogram(const InfoOptions& options, mesh::TetMesh mesh) {
+    mesh::ScalarSelection selected;
+    try {
+        mesh::MeshReport ignored;
+        selected = mesh::selectScalar(std::move(mesh), options.scalar, ignored);
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(fmt::format("{}: {}", options.source, error.what()));
+    }
+    writeHistogram(
+        {fmt::format("{} of {}", selected.fieldName, std::filesystem::path(options.source).filename().string()),
+         selected.fieldName, selected.mesh.association, mesh::histogramOf(selected.mesh.scalars), options.logarithmic},
+        options.histogram);
+}
+
 int info(const InfoOptions& options) {
-    const Findings found = findingsOf(options);
+    if (options.histogram.empty() && (options.logarithmic || !options.scalar.empty()))
+        throw std::runtime_error(
+            fmt::format("{}: only the histogram depends on it; leave it out, or give --histogram FILE.png",
+                        options.logarithmic ? "--histogram-log" : "--scalar"));
+    if (!options.histogram.empty()) checkPlotPath(options.histogram);
+    Findings found = findingsOf(options);
+    if (!options.histogram.empty()) drawHistogram(options, std::move(found.mesh));
     if (options.json)
         fmt::print("{}", jsonText(infoJson(options, found)));
     else
@@ -146,6 +175,10 @@ void addInfoCommand(CLI::App& program, Command& chosen) {
     command->add_option("MESH", options->source, "mesh file or generated field")->required();
     addReadOptions(*command, options->read);
     command->add_flag("--json", options->json, "for machines");
+    command->add_option("--histogram", options->histogram, "draw how often which value occurs: FILE.png or FILE.svg");
+    command->add_option("--scalar", options->scalar,
+                        "field of the histogram: NAME (vectors by magnitude) or NAME:x; default: the first");
+    command->add_flag("--histogram-log", options->logarithmic, "counts on a logarithmic axis");
     command->callback([options, &chosen] { chosen = [options] { return info(*options); }; });
 }
 

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <glm/common.hpp>
 
+#include <apps/add_option.h>
 #include <apps/option_values.h>
 #include <mesh/io/read_surface.h>
 
@@ -53,6 +54,14 @@ void addOpaqueOptions(CLI::App& command, OpaqueOptions& options) {
                 [&options](const std::string& text) { options.slices.push_back(parseSlice("--slice", text)); });
     addRepeated(command, "--slice-opacity", "A", "how much a slice hides, from 0 to 1; one for all or one for each",
                 [&options](const std::string& text) { options.sliceOpacities.push_back(parseOpacity(text)); });
+    addNumber<int>(
+        command, "--isolines", options.isolines, [](double value) { return value >= 1.0 && value <= 1024.0; },
+        "a whole number from 1 to 1024", "so many equidistant isolines on every slice");
+    addNumber<double>(
+        command, "--isoline-width", options.lines.width, [](double value) { return value > 0.0 && value <= 100.0; },
+        "pixels, above 0 and up to 100", "of isolines in pixels, 1.5");
+    addParsed(command, "--isoline-color", options.lines.color, parseColor,
+              "of isolines; default: black where the slice is bright, white where it is dark", "r,g,b");
     addRepeated(command, "--surface", "FILE",
                 "opaque surface in the volume (.stl .obj .ply .off .vtp .vtk); may be given several times",
                 [&options](const std::string& text) { options.surfaces.push_back(text); });
@@ -71,7 +80,10 @@ projection::OpaqueObjects readOpaqueObjects(const OpaqueOptions& options) {
     if (opacities > 0 && opacities != slices && (opacities > 1 || slices == 0))
         throw std::runtime_error(
             fmt::format("--slice-opacity: {} for {} slices; give one, or one for each --slice", opacities, slices));
+    if (options.isolines && slices == 0)
+        throw std::runtime_error("--isolines: there is nothing to draw them on; give --slice");
     projection::OpaqueObjects objects;
+    objects.isolines = options.lines;
     objects.slices = options.slices;
     for (std::size_t i = 0; i < slices && opacities > 0; ++i)
         objects.slices[i].opacity = options.sliceOpacities[opacities > 1 ? i : 0];

@@ -3,6 +3,7 @@
 /// What stands in the volume: --slice, --surface and how they look.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ namespace tetralux::apps {
 struct OpaqueOptions {
     std::vector<projection::Slice> slices;
     std::vector<double> sliceOpacities;     ///< none, one for all, or one for each
+    std::optional<int> isolines;            ///< so many on each slice
+    projection::Isolines lines;             ///< how they look
     std::vector<std::string> surfaces;      ///< files
     std::vector<glm::dvec3> surfaceColors;  ///< none, one for all, or one for each
     bool flat = false;                      ///< surfaces without light

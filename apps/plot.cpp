@@ -194,9 +194,14 @@ std::string plotAsSvg(const Plot& plot) {
     return draw(plot, makeSvgCanvas);
 }
 
-void writePlot(const Plot& plot, const std::string& path) {
+void writePlotFile(const std::string& path,
+                   const std::function<std::string(std::unique_ptr<PlotCanvas> (*)(int, int))>& draw) {
     checkPlotPath(path);
-    projection::writeWholeFile(path, endingOf(path) == ".png" ? draw(plot, makePngCanvas) : plotAsSvg(plot));
+    projection::writeWholeFile(path, draw(endingOf(path) == ".png" ? makePngCanvas : makeSvgCanvas));
+}
+
+void writePlot(const Plot& plot, const std::string& path) {
+    writePlotFile(path, [&](auto makeCanvas) { return draw(plot, makeCanvas); });
 }
 
 }  // namespace tetralux::apps

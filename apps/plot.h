@@ -3,8 +3,12 @@
 /// Scatter plots of error against time on logarithmic axes, one panel beside the other, as SVG or PNG.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include <apps/plot_canvas.h>
 
 namespace tetralux::apps {
 
@@ -32,6 +36,10 @@ void checkPlotPath(const std::string& path);
 
 /// The file appears whole or not at all. \throws std::runtime_error
 void writePlot(const Plot& plot, const std::string& path);
+
+/// Writes what `draw` makes on a canvas of the kind that `path` asks for. The file appears whole or not at all.
+void writePlotFile(const std::string& path,
+                   const std::function<std::string(std::unique_ptr<PlotCanvas> (*)(int, int))>& draw);
 
 /// The text of the SVG.
 std::string plotAsSvg(const Plot& plot);

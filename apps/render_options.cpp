@@ -32,12 +32,21 @@ void addMeshOptions(CLI::App& command, RenderOptions& options) {
                      "also of meshes of millions of cells: tell whether cells overlap or do not fit together");
 }
 
+/// "C,W": from C − W/2 to C + W/2. "dicom:C,W" counts in whole numbers, of which a window of width W holds W (DICOM
+/// PS3.3, C.11.2.1.2.1): from C − 1/2 − (W − 1)/2 to C − 1/2 + (W − 1)/2.
 glm::dvec2 parseWindow(const std::string& option, const std::string& text) {
-    const std::vector<double> values = parseNumbers(option, text, 2, "centre,width");
+    constexpr std::string_view dicom = "dicom:";
+    const bool whole = text.starts_with(dicom);
+    const std::vector<double> values =
+        parseNumbers(option, whole ? text.substr(dicom.size()) : text, 2, "centre,width or dicom:centre,width");
+    if (whole && !(values[1] >= 1.0))
+        throw std::runtime_error(fmt::format(
+            "{}: '{}' is narrower than one whole number; give dicom:centre,width with a width from 1", option, text));
+    if (whole) return {values[0] - 0.5 - 0.5 * (values[1] - 1.0), values[0] - 0.5 + 0.5 * (values[1] - 1.0)};
     if (!(values[1] > 0.0))
         throw std::runtime_error(
             fmt::format("{}: '{}' has no width; give centre,width with a width above 0", option, text));
-    return {values[0], values[1]};
+    return {values[0] - 0.5 * values[1], values[0] + 0.5 * values[1]};
 }
 
 void addPictureOptions(CLI::App& command, RenderOptions& options) {
@@ -45,8 +54,11 @@ void addPictureOptions(CLI::App& command, RenderOptions& options) {
         "--tf", options.transferFunction,
         fmt::format("transfer function: JSON file or one of {}; default: cool-to-warm, nothing quite clear",
                     fmt::join(preint::presetNames(), ", ")));
-    addParsed(command, "--window", options.window, parseWindow,
-              "scalars over which the transfer function is stretched; default: the field's range", "centre,width");
+    addParsed(
+        command, "--window", options.window, parseWindow,
+        "scalars over which the transfer function is stretched; default: the field's range. dicom: as DICOM defines it "
+        "for whole numbers",
+        "[dicom:]centre,width");
     addParsed(command, "--mode", options.settings.mode, parseMode, modeNames(), "MODE");
     addParsed(command, "--background", options.background, parseBackground, "colour put under the picture, or none",
               "r,g,b");

@@ -28,7 +28,7 @@ struct RenderOptions {
     mesh::ReadOptions read;
     bool checkInterfaces = false;      ///< also where it takes long: whether cells overlap or do not fit together
     std::string transferFunction;      ///< file or preset; empty: the default
-    std::optional<glm::dvec2> window;  ///< scalars over which the transfer function is stretched: centre, width
+    std::optional<glm::dvec2> window;  ///< scalars over which the transfer function is stretched: from, to
     projection::RenderSettings settings;
     OpaqueOptions opaque;
     AnnotationOptions annotation;

@@ -57,18 +57,17 @@ double thickness(const mesh::BoundingBox& box) {
     return surface > 0.0 ? 3.0 * std::numbers::sqrt3 * longest * part.x * part.y * part.z / surface : box.diagonal();
 }
 
-/// The scalars that the colour bar shows: the window if there is one, else the field's range.
+/// The scalars that the colour bar shows: the window if there is one that has a width, else the field's range.
 glm::dvec2 rangeOf(const RenderOptions& options, const mesh::ScalarMesh& mesh) {
-    if (!options.window) return {mesh.scalarMin, mesh.scalarMax};
-    return {options.window->x - 0.5 * options.window->y, options.window->x + 0.5 * options.window->y};
+    if (options.window && options.window->x < options.window->y) return *options.window;
+    return {mesh.scalarMin, mesh.scalarMax};
 }
 
 /// In absolute units: over the window if there is one, else over the field's range.
 preint::TransferFunction resolvedWith(double extent, const RenderOptions& options,
                                       const preint::TransferFunction& function, const mesh::ScalarMesh& mesh) {
-    const glm::dvec2 range = rangeOf(options, mesh);
-    return options.window ? preint::windowed(function, range.x, range.y, extent)
-                          : preint::resolved(function, range.x, range.y, extent);
+    return options.window ? preint::windowed(function, options.window->x, options.window->y, extent)
+                          : preint::resolved(function, mesh.scalarMin, mesh.scalarMax, extent);
 }
 
 /// The default function, with the extinction that shows this very mesh: where it is thin, or where most of it has low
@@ -148,7 +147,7 @@ SceneRenderer::SceneRenderer(const RenderOptions& options)
 
 void SceneRenderer::readScene(const RenderOptions& options) {
     const preint::TransferFunction transferFunction = loadTransferFunction(options.transferFunction);
-    const projection::OpaqueObjects opaque = readOpaqueObjects(options.opaque);
+    projection::OpaqueObjects opaque = readOpaqueObjects(options.opaque);
     const Stopwatch watch;
     mesh::ReadResult source = mesh::readMesh(options.source, options.read);
     record_.mesh = std::move(source.report);
@@ -178,6 +177,8 @@ void SceneRenderer::readScene(const RenderOptions& options) {
                   scene_.transferFunction,
                   scene_.mesh->bounds,
                   glm::dvec3(background_.value_or(glm::vec3(0)))};
+    if (options.opaque.isolines)
+        opaque.isolines.values = preint::equidistantValues(*options.opaque.isolines, range.x, range.y);
     // limits come first: they leave out parts of slices
     if (!options.shape.clips.empty())
         scene_.mapSources.push_back(std::make_shared<projection::ClipRegion>(options.shape.clips));

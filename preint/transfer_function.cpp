@@ -192,7 +192,30 @@ TransferFunction resolved(const TransferFunction& function, double scalarMin, do
     return absolute;
 }
 
+namespace {
+
+/// The first node's value below `above`, the last one's from there on.
+template <class Node>
+void makeStep(std::vector<Node>& nodes, double above) {
+    if (nodes.empty()) return;
+    nodes = {nodes.front(), nodes.back()};
+    for (Node& node : nodes) node.scalar = above;
+}
+
+TransferFunction stepAt(double scalar, const TransferFunction& function, double extent) {
+    TransferFunction step = function;
+    const double above = std::nextafter(scalar, std::numeric_limits<double>::infinity());  // a jump holds from above
+    makeStep(step.color, above);
+    makeStep(step.extinction, above);
+    for (Isosurface& surface : step.isosurfaces) surface.value = above;
+    step.normalized = false;
+    return resolved(step, above, above, extent);
+}
+
+}  // namespace
+
 TransferFunction windowed(const TransferFunction& function, double low, double high, double extent) {
+    if (low == high) return stepAt(low, function, extent);
     if (function.normalized) return resolved(function, low, high, extent);
     double first = std::numeric_limits<double>::infinity(), last = -first;
     const auto include = [&](double scalar) {

@@ -56,8 +56,8 @@ TransferFunction preset(const std::string& name);
 TransferFunction resolved(const TransferFunction& function, double scalarMin, double scalarMax, double extent);
 
 /// Stretched over the scalars from `low` to `high`: a normalized function has its fractions count from there, any other
-/// one has its first and last node moved to them and the rest in proportion. Extinction stays as it is per unit; per
-/// extent it is divided by `extent`. \throws std::runtime_error when the function has no width to stretch.
+/// its first and last node moved to them, the rest in proportion; low = high: a step just above. Per unit extinction
+/// stays, per extent it is divided by `extent`. \throws std::runtime_error when the function has no width to stretch.
 TransferFunction windowed(const TransferFunction& function, double low, double high, double extent);
 
 }  // namespace tetralux::preint

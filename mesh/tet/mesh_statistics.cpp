@@ -32,19 +32,15 @@ double magnitudeAt(const Field& field, std::size_t place) {
     return norm;
 }
 
-FieldStatistics fieldStatistics(const Field& field) {
-    FieldStatistics result;
-    result.name = field.name;
-    result.association = field.association;
-    result.components = field.components;
-    result.bookkeeping = field.bookkeeping;
-    result.values = field.values.size() / static_cast<std::size_t>(field.components);
+/// Of `valueAt(i)`, i below `count`.
+template <class ValueAt>
+Histogram makeHistogram(std::size_t count, const ValueAt& valueAt) {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
     double mean = 0.0;
     std::uint64_t finite = 0;
-    for (std::size_t i = 0; i < result.values; ++i) {
-        const double value = magnitudeAt(field, i);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double value = valueAt(i);
         if (std::isfinite(value)) {
             low = std::min(low, value);
             high = std::max(high, value);
@@ -52,7 +48,8 @@ FieldStatistics fieldStatistics(const Field& field) {
             mean += (value - mean) / static_cast<double>(finite);  // a sum could overflow
         }
     }
-    result.nonFinite = result.values - finite;
+    Histogram result;
+    result.nonFinite = count - finite;
     if (finite == 0) {
         return result;
     }
@@ -60,16 +57,32 @@ FieldStatistics fieldStatistics(const Field& field) {
     result.high = high;
     result.mean = mean;
     if (high > low) {
-        result.histogram.assign(histogramClasses, 0);
+        result.counts.assign(histogramClasses, 0);
         const double scale = 1.0 / (high / histogramClasses - low / histogramClasses);  // a difference could overflow
-        for (std::size_t i = 0; i < result.values; ++i) {
-            const double value = magnitudeAt(field, i);
+        for (std::size_t i = 0; i < count; ++i) {
+            const double value = valueAt(i);
             if (std::isfinite(value)) {
                 const double place = std::clamp(value * scale - low * scale, 0.0, histogramClasses - 1.0);
-                ++result.histogram[static_cast<std::size_t>(place)];
+                ++result.counts[static_cast<std::size_t>(place)];
             }
         }
     }
+    return result;
+}
+
+FieldStatistics fieldStatistics(const Field& field) {
+    FieldStatistics result;
+    result.name = field.name;
+    result.association = field.association;
+    result.components = field.components;
+    result.bookkeeping = field.bookkeeping;
+    result.values = field.values.size() / static_cast<std::size_t>(field.components);
+    Histogram found = makeHistogram(result.values, [&](std::size_t place) { return magnitudeAt(field, place); });
+    result.low = found.low;
+    result.high = found.high;
+    result.mean = found.mean;
+    result.nonFinite = found.nonFinite;
+    result.histogram = std::move(found.counts);
     return result;
 }
 
@@ -175,6 +188,10 @@ std::uint64_t memoryOf(const TetMesh& mesh) {
 }
 
 }  // namespace
+
+Histogram histogramOf(const std::vector<double>& values) {
+    return makeHistogram(values.size(), [&](std::size_t i) { return values[i]; });
+}
 
 MeshStatistics meshStatistics(const TetMesh& mesh) {
     MeshStatistics result;

@@ -14,6 +14,14 @@
 
 namespace tetralux::mesh {
 
+/// Of finite values, in equal classes from low to high.
+struct Histogram {
+    double low = 0.0, high = 0.0, mean = 0.0;  ///< zeros if there is no finite value
+    std::uint64_t nonFinite = 0;
+    std::vector<std::uint64_t> counts;  ///< 64 classes; empty if low == high
+};
+Histogram histogramOf(const std::vector<double>& values);
+
 /// Values are those of the field, or the magnitudes of its vectors. Non-finite ones are only counted.
 struct FieldStatistics {
     std::string name;

@@ -15,7 +15,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
-
 namespace tetralux::mesh {
 namespace {
 
@@ -211,6 +210,8 @@ std::uint64_t dropNonFiniteCells(ScalarMesh& mesh, MeshReport& report) {
         }
         ++kept;
     }
+    for (double& scalar : mesh.scalars)
+        if (!std::isfinite(finiteIfDrawable(scalar))) scalar = std::numeric_limits<double>::quiet_NaN();
     const std::uint64_t dropped = mesh.cells.size() - kept;
     if (dropped > 0) {
         mesh.cells.resize(kept);

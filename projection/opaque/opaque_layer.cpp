@@ -15,6 +15,7 @@
 #include <mesh/tet/plane_cut.h>
 #include <projection/cells/point_pixel.h>
 #include <projection/cells/ray_triangle.h>
+#include <projection/image/ink.h>
 #include <projection/light/arriving_light.h>
 #include <projection/light/corner_normals.h>
 
@@ -48,6 +49,12 @@ void checkOpacity(double opacity, Mode mode) {
             "absorption, or slices of opacity 1");
 }
 
+std::vector<glm::dvec3> inksOf(const Isolines& lines, const preint::TransferFunction& function) {
+    std::vector<glm::dvec3> inks;
+    for (const double value : lines.values) inks.push_back(lines.color.value_or(inkUpon(function.colorAt(value))));
+    return inks;
+}
+
 }  // namespace
 
 OpaqueLayer::OpaqueLayer(const Scene& scene, const OpaqueObjects& objects)
@@ -55,6 +62,8 @@ OpaqueLayer::OpaqueLayer(const Scene& scene, const OpaqueObjects& objects)
       association_(scene.mesh->association),
       transferFunction_(scene.transferFunction),
       shading_(scene.settings.shading),
+      isolineWidth_(objects.isolines.width),
+      isolineInks_(inksOf(objects.isolines, scene.transferFunction)),
       surfaces_(objects.surfaces) {
     if (shading_.needsShadows()) shadowAt_ = shadowsOf(scene);
     std::uint32_t object = 0;
@@ -69,6 +78,7 @@ OpaqueLayer::OpaqueLayer(const Scene& scene, const OpaqueObjects& objects)
                 slice.point.y, slice.point.z, box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z));
         }
         append(cut, object++);
+        isolines_.push_back(mesh::isolines(cut, objects.isolines.values));
     }
     for (const OpaqueSurface& surface : surfaces_) append(*surface.mesh, object++);
 }
@@ -123,13 +133,14 @@ glm::dvec3 OpaqueLayer::atDepth(const glm::dvec3& color, const DepthRange& depth
 }
 
 /// The transfer function's colour, as it is so that it can be read off; in shadow of the volume or of surfaces times
-/// a + (1 − a)·(mean transmittance to the lights), a the ambient light.
-glm::dvec3 OpaqueLayer::sliceColor(const Triangle& triangle, const TriangleCrossing& where,
-                                   const glm::dvec3& place) const {
+/// a + (1 − a)·(mean transmittance to the lights), a the ambient light. Lines are drawn upon it before.
+glm::dvec3 OpaqueLayer::sliceColor(const Triangle& triangle, const TriangleCrossing& where, const glm::dvec3& place,
+                                   const LineCover& line) const {
     const auto& [a, b, c] = triangle.corners;
     const double scalar =
         association_ == mesh::Association::Cell ? triangle.scalar : where.blend(scalars_[a], scalars_[b], scalars_[c]);
-    const glm::dvec3 color = transferFunction_.colorAt(scalar);
+    glm::dvec3 color = transferFunction_.colorAt(scalar);
+    if (line.share > 0) color = glm::mix(color, isolineInks_[line.value], double{line.share});
     if (!shadowAt_) return color;
     double arrives = 0;
     for (const shading::Light& source : shading_.lights) arrives += shadowAt_(source, place);
@@ -148,7 +159,10 @@ public:
           depths_(depthRange(layer.bounds_, camera)),
           maps_(maps),
           tilesAcross_(static_cast<std::size_t>((camera.width + tileSize - 1) / tileSize)),
-          tileCount_(tilesAcross_ * static_cast<std::size_t>((camera.height + tileSize - 1) / tileSize)) {}
+          tileCount_(tilesAcross_ * static_cast<std::size_t>((camera.height + tileSize - 1) / tileSize)) {
+        for (const auto& segments : layer.isolines_)
+            isolines_.emplace_back(frame_, segments, layer.isolineWidth_, tileSize);
+    }
 
     void render() {
         bin();
@@ -226,7 +240,11 @@ private:
             TriangleCrossing where{};
         };
         std::array<Met, tilePixels> met;
+        std::vector<std::vector<LineCover>> lines;  // by slice, by slot; empty: none
 
+        LineCover lineAt(std::uint32_t object, std::size_t slot) const {
+            return object >= lines.size() || lines[object].empty() ? LineCover{} : lines[object][slot];
+        }
         static std::size_t slot(const PixelBox& box, int x, int y) {
             return static_cast<std::size_t>(y - box.y0) * tileSize + static_cast<std::size_t>(x - box.x0);
         }
@@ -241,12 +259,14 @@ private:
         tile->box = {x0, y0, std::min(x0 + tileSize, frame_.width), std::min(y0 + tileSize, frame_.height)};
         forEachPixel(tile->box,
                      [&](int x, int y) { tile->rays[Tile::slot(tile->box, x, y)] = RayFrame(pixelRay(frame_, x, y)); });
+        for (const IsolinePixels& lines : isolines_) tile->lines.push_back(lines.inTile(number));
         for (const std::uint32_t index : members) meet(*tile, index, veils_[number]);
         forEachPixel(tile->box, [&](int x, int y) {
             const std::size_t slot = Tile::slot(tile->box, x, y);
             const auto& [distance, triangle, where] = tile->met[slot];
             if (triangle != nullptr)
-                hits_[pixelNumber(x, y)] = {distance, glm::vec3(colorOf(*triangle, where, tile->rays[slot], distance))};
+                hits_[pixelNumber(x, y)] = {distance, glm::vec3(colorOf(*triangle, where, tile->rays[slot], distance,
+                                                                        tile->lineAt(triangle->object, slot)))};
         });
     }
 
@@ -276,8 +296,11 @@ private:
             if (!crossing) return;
             const double t = crossing->blend(seen[0].t, seen[1].t, seen[2].t);
             if (!(t > 0) || (isSlice(triangle) && !inRange(pixelNumber(x, y), t))) return;
-            if (const double opacity = opacityOf(triangle); opacity < 1.0) {
-                const glm::dvec3 color = opacity * colorOf(triangle, *crossing, ray, t);
+            if (const double bare = opacityOf(triangle); bare < 1.0) {
+                LineCover line = tile.lineAt(triangle.object, slot);
+                const double opacity = std::lerp(bare, 1.0, double{line.share});
+                if (line.share > 0) line.share /= static_cast<float>(opacity);  // of what shows: lines are opaque
+                const glm::dvec3 color = opacity * colorOf(triangle, *crossing, ray, t, line);
                 veils.push_back({static_cast<std::uint32_t>(pixelNumber(x, y)), t, glm::vec4(color, opacity)});
                 return;
             }
@@ -298,13 +321,13 @@ private:
                (maps_.farthest.empty() || t <= maps_.farthest[pixel] + tolerance);
     }
 
-    glm::dvec3 colorOf(const Triangle& triangle, const TriangleCrossing& where, const RayFrame& ray,
-                       double distance) const {
+    glm::dvec3 colorOf(const Triangle& triangle, const TriangleCrossing& where, const RayFrame& ray, double distance,
+                       const LineCover& line) const {
         if (!isSlice(triangle))
             return layer_.atDepth(layer_.surfaceColor(layer_.surfaces_[triangle.object - layer_.sliceOpacities_.size()],
                                                       triangle, where, ray, distance),
                                   depths_, distance);
-        return layer_.sliceColor(triangle, where, ray.origin + distance * ray.direction);
+        return layer_.sliceColor(triangle, where, ray.origin + distance * ray.direction, line);
     }
 
     const OpaqueLayer& layer_;
@@ -313,6 +336,7 @@ private:
     const DepthRange depths_;
     PixelMaps& maps_;
     std::size_t tilesAcross_, tileCount_;
+    std::vector<IsolinePixels> isolines_;            // of each slice
     std::vector<Hit> hits_;                          // by pixel
     std::vector<std::vector<Veil>> veils_;           // by tile
     std::vector<PixelBox> boxes_;                    // by triangle

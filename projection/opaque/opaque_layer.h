@@ -15,6 +15,7 @@
 #include <projection/core/pixel_maps.h>
 #include <projection/core/scene.h>
 #include <projection/light/light_shadows.h>
+#include <projection/opaque/isoline_pixels.h>
 #include <projection/opaque/opaque_objects.h>
 
 namespace tetralux::projection {
@@ -27,8 +28,8 @@ class OpaqueLayer final : public PixelMapSource {
 public:
     /// Cuts the slices out of the scene's mesh; its transfer function colours them, its lights fall on the surfaces.
     /// Where there are shadows, the volume and the scene's shadow casters cast them on surfaces and slices. Slices
-    /// whose opacity is below 1 become veils. \throws std::runtime_error when a slice misses the mesh, or has an
-    /// opacity in a mode that composes no parts.
+    /// whose opacity is below 1 become veils, isolines are opaque on any. \throws std::runtime_error when a slice
+    /// misses the mesh, or has an opacity in a mode that composes no parts.
     OpaqueLayer(const Scene& scene, const OpaqueObjects& objects);
 
     void apply(const Camera& camera, PixelMaps& maps) const override;
@@ -47,7 +48,8 @@ private:
     glm::dvec3 surfaceColor(const OpaqueSurface& surface, const Triangle& triangle, const TriangleCrossing& where,
                             const RayFrame& ray, double distance) const;
     glm::dvec3 atDepth(const glm::dvec3& color, const DepthRange& depths, double distance) const;
-    glm::dvec3 sliceColor(const Triangle& triangle, const TriangleCrossing& where, const glm::dvec3& place) const;
+    glm::dvec3 sliceColor(const Triangle& triangle, const TriangleCrossing& where, const glm::dvec3& place,
+                          const LineCover& line) const;
 
     mesh::BoundingBox bounds_;       // of the mesh
     mesh::Association association_;  // of its scalar
@@ -55,6 +57,9 @@ private:
     shading::ShadingSettings shading_;
     ShadowAt shadowAt_;  // of the volume; empty: it casts none
     std::vector<double> sliceOpacities_;
+    std::vector<std::vector<mesh::IsolineSegment>> isolines_;  // of each slice
+    double isolineWidth_;                                      // pixels
+    std::vector<glm::dvec3> isolineInks_;                      // by value
     std::vector<OpaqueSurface> surfaces_;
     std::vector<glm::dvec3> positions_;  // of all slices and surfaces
     std::vector<double> scalars_;        // slices of point data: one per position of theirs

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -16,6 +17,13 @@ struct Slice {
     double opacity = 1.0;      ///< below 1 what lies behind shows too (veiled_volume.h)
 };
 
+/// Lines on slices where the scalar has these values.
+struct Isolines {
+    std::vector<double> values;       ///< ascending
+    double width = 1.5;               ///< pixels
+    std::optional<glm::dvec3> color;  ///< display RGB; not given: black or white, whichever stands out from the slice
+};
+
 /// An opaque surface, each triangle lit by itself from the side that the eye sees (colour as it is where `flat`).
 struct OpaqueSurface {
     std::shared_ptr<const mesh::SurfaceMesh> mesh;
@@ -27,6 +35,7 @@ struct OpaqueSurface {
 struct OpaqueObjects {
     std::vector<Slice> slices;
     std::vector<OpaqueSurface> surfaces;
+    Isolines isolines{};  ///< on all slices, opaque however clear those are
     bool empty() const { return slices.empty() && surfaces.empty(); }
 };
 

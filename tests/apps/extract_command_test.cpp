@@ -19,6 +19,16 @@ TEST_F(ExtractCommand, TellsWhatItWrote) {
     expectGood("render bucky:4 --size 8x8 -o a.png --quiet --surface a.vtp");
 }
 
+TEST_F(ExtractCommand, SeesWhatRenderDoes) {
+    // a point with no value takes its cell away
+    TinyMesh mesh = cornerTetrahedron(0);
+    mesh.points.push_back({4, 4, 2});
+    mesh.cells.push_back({1, 2, 3, 4});
+    mesh.values = {0, 1, 1, 1, 1e300};
+    write("half.vtu", vtuText(mesh));
+    EXPECT_EQ(tetralux("extract half.vtu --isosurface 0.5 -o a.vtp").out.rfind("a.vtp: 1 triangles, 3 points", 0), 0u);
+}
+
 TEST_F(ExtractCommand, CellFieldsBecomeLinearFirst) {
     expectRefused("extract damaged.vtu --boundary -o a.vtp", {"damaged.vtu"});
     write("cells.vtk",

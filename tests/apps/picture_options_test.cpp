@@ -77,6 +77,56 @@ TEST_F(PictureOptions, WindowStretchesTheTransferFunction) {
     expectRefused("render bucky:6 -o b.png --window 1,2 --tf constant.json", {"window"});
 }
 
+/// What DICOM PS3.3, C.11.2.1.2.1 says of a window: the grey of x, as it stands there.
+double dicomGrey(double x, double c, double w) {
+    if (x <= c - 0.5 - (w - 1) / 2) return 0.0;
+    if (x > c - 0.5 + (w - 1) / 2) return 1.0;
+    return (x - (c - 0.5)) / (w - 1) + 0.5;
+}
+
+TEST_F(PictureOptions, WindowOfWholeNumbers) {
+    write("ramp.json", R"({"normalized": true, "color": [[0, 0, 0, 0], [1, 1, 1, 1]], "extinction": [[0, 1000]]})");
+    write("corner.vtu", vtuText(cornerTetrahedron(5)));
+    const std::string render = std::string("render corner.vtu -o a.exr --quiet --tf ramp.json") + lineView;
+    for (const double c : {4.0, 5.0, 5.5, 6.0, 7.0})
+        for (const double w : {1.0, 2.0, 3.0, 4.5, 256.0}) {
+            expectGood(fmt::format("{} --window dicom:{},{}", render, c, w));
+            EXPECT_NEAR(readImage(path("a.exr")).at(0, 0).x, dicomGrey(5, c, w), 1e-5) << c << ", " << w;
+        }
+    expectGood("render corner.vtu -o b.png --quiet --window dicom:5,1 --color-bar --size 64x64");
+    expectRefused("render bucky:6 -o b.png --window dicom:1,0.5", {"--window", "whole number", "dicom:centre,width"});
+    expectRefused("render bucky:6 -o b.png --window pet:1,2", {"--window", "dicom:centre,width"});
+}
+
+TEST_F(PictureOptions, HistogramsAreDrawnOfTheScalarAskedFor) {
+    EXPECT_EQ(tetralux("info bucky:6 --histogram a.png --histogram-log").status, 0);
+    EXPECT_EQ(contentOf(folder_ / "a.png").substr(1, 3), "PNG");
+    EXPECT_EQ(tetralux("info bucky:6 --json --histogram a.svg --scalar z").status, 0);
+    EXPECT_NE(contentOf(folder_ / "a.svg").find("z of bucky:6"), std::string::npos);
+    expectRefused("info bucky:6 --histogram b.pdf", {"b.pdf", ".png"});
+    expectRefused("info bucky:6 --histogram missing/b.png", {"missing"});
+    expectRefused("info bucky:6 --histogram b.png --scalar pressure", {"bucky:6", "pressure"});
+    expectRefused("info bucky:6 --scalar density", {"--scalar", "--histogram"});
+    expectRefused("info bucky:6 --histogram-log", {"--histogram-log", "--histogram FILE"});
+}
+
+TEST_F(PictureOptions, IsolinesStandOnSlices) {
+    const std::string render = "render bucky:6 -o a.exr --size 32x32 --quiet --slice 0.5,0.5,0.5,0,0,1 ";
+    const auto rendered = [&](const std::string& options) {
+        expectGood(render + options);
+        return readImage(path("a.exr"));
+    };
+    const Image plain = rendered(""), lines = rendered("--isolines 3 --isoline-color 0,1,0"),
+                wide = rendered("--isolines 3 --isoline-color 0,1,0 --isoline-width 4");
+    EXPECT_GT(projection::compareImages(plain, lines).rmse, 0.05);
+    EXPECT_GT(projection::compareImages(plain, wide).rmse, projection::compareImages(plain, lines).rmse);
+    const std::string bad = "render bucky:6 -o b.png ";
+    expectRefused(bad + "--isolines 3", {"--isolines", "--slice"});
+    expectRefused(bad + "--slice 0.5,0.5,0.5,0,0,1 --isolines 0", {"--isolines", "1024"});
+    expectRefused(bad + "--slice 0.5,0.5,0.5,0,0,1 --isolines 3 --isoline-width 0", {"--isoline-width"});
+    expectRefused(bad + "--slice 0.5,0.5,0.5,0,0,1 --isolines 3 --isoline-color 0,2,0", {"--isoline-color"});
+}
+
 TEST_F(PictureOptions, AnnotationChangesOnlyWhatItCovers) {
     const std::string render = "render bucky:6 --size 200x160 --quiet --engine cpu -o ";
     expectGood(render + "plain.exr");

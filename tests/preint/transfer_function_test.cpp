@@ -2,6 +2,7 @@
 #include <preint/transfer_function.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -215,6 +216,12 @@ TEST(TransferFunction, WindowStretches) {
 
     function.extinctionPerExtent = true;
     EXPECT_NEAR(windowed(function, 10.0, 12.0, 2.0).extinctionAt(10.5), 1.5, 1e-12);
+
+    const TransferFunction step = windowed(function, 10.0, 10.0, 2.0);
+    EXPECT_EQ(step.colorAt(10.0), glm::dvec3(0)) << "a window without width is a step";
+    EXPECT_EQ(step.colorAt(std::nextafter(10.0, 11.0)), glm::dvec3(1, 0.5, 0));
+    EXPECT_EQ(step.extinctionAt(10.0), 1.0);
+    EXPECT_EQ(step.extinctionAt(10.1), 2.0);
 
     function.color = {{3.0, {1, 1, 1}}};
     function.extinction = {{3.0, 1.0}};

@@ -181,7 +181,9 @@ void SceneRenderer::readScene(const RenderOptions& options) {
         opaque.isolines.values = preint::equidistantValues(*options.opaque.isolines, range.x, range.y);
     // limits come first: they leave out parts of slices
     if (!options.shape.clips.empty())
-        scene_.mapSources.push_back(std::make_shared<projection::ClipRegion>(options.shape.clips));
+        scene_.mapSources.push_back(std::make_shared<projection::ClipRegion>(
+            options.shape.clips,
+            options.shape.cutLayer.value_or(projection::cutLayerShare * scene_.mesh->bounds.diagonal())));
     for (const projection::OpaqueSurface& surface : opaque.surfaces) scene_.shadowCasters.push_back(surface.mesh);
     if (!opaque.empty()) scene_.mapSources.push_back(std::make_shared<const projection::OpaqueLayer>(scene_, opaque));
 }

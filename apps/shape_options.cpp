@@ -170,6 +170,8 @@ void addShapeOptions(CLI::App& command, ShapeOptions& options, projection::Rende
     addClip(command, "--clip-box", "x0,x1,y0,y1,z0,z1", parseClipBox, options, "show only what lies within a box");
     addClip(command, "--slab", "px,py,pz,nx,ny,nz,thickness", parseSlab, options,
             "show only a slab about the point, across the normal");
+    addNumber<double>(command, "--cut-layer", options.cutLayer, notNegative, "a length from 0",
+                      "so far behind a cut light falls by the cut's normal, 1/200 of the diagonal");
     addParsed(
         command, "--classification", settings.classification,
         [](const std::string& option, const std::string& text) { return chosen(option, text, classifications); },

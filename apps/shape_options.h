@@ -19,6 +19,7 @@ namespace tetralux::apps {
 
 struct ShapeOptions {
     std::vector<projection::HalfSpace> clips;
+    std::optional<double> cutLayer;  ///< mesh units; nothing: projection::cutLayerShare
     std::string silhouette;          ///< "", "exact" or "approximate"
     std::optional<int> isosurfaces;  ///< so many instead of extinction
     projection::AdaptiveSettings adaptive;

@@ -29,6 +29,7 @@ NearnessMaps nearnessMaps(const PixelMaps& maps, const CameraFrame& frame, const
     NearnessMaps result;
     result.nearest.resize(maps.nearest.size());
     result.farthest.resize(maps.farthest.size());
+    result.cutLayerEnd.resize(maps.cutLayerEnd.size());
     tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
         for (std::size_t x = 0; x < width; ++x) {
             const std::size_t i = y * width + x;
@@ -44,6 +45,8 @@ NearnessMaps nearnessMaps(const PixelMaps& maps, const CameraFrame& frame, const
             if (!maps.nearest.empty()) result.nearest[i] = maps.nearest[i] > 0 ? at(maps.nearest[i]) : noNearnessLimit;
             if (!maps.farthest.empty())
                 result.farthest[i] = std::isinf(maps.farthest[i]) ? -noNearnessLimit : at(maps.farthest[i]);
+            if (!maps.cutLayerEnd.empty())
+                result.cutLayerEnd[i] = maps.cutLayerEnd[i] > 0 ? at(maps.cutLayerEnd[i]) : noNearnessLimit;
         }
     });
     return result;

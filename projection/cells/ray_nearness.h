@@ -14,7 +14,7 @@ inline constexpr float noNearnessLimit = 3e38f;
 /// The limits of pixel maps as fast engines read them: nearness along rays, zRef/z − 1 in perspective and zRef − z in
 /// orthographic views, z the depth in scene lengths. Each is empty or has one element per pixel.
 struct NearnessMaps {
-    std::vector<float> nearest, farthest;
+    std::vector<float> nearest, farthest, cutLayerEnd;
 };
 NearnessMaps nearnessMaps(const PixelMaps& maps, const CameraFrame& frame, const SceneUnits& units,
                           double depthReference);

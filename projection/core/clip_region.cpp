@@ -16,17 +16,18 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Interval {
-    double begin = 0.0, end = infinity;
+    double begin = -infinity, end = infinity;
+    double layerEnd = 0.0;
     glm::dvec3 normal{0};  // of the plane through which the ray comes in, towards the eye; 0: none
 };
 
-Interval intervalOf(const std::vector<HalfSpace>& halfSpaces, const Ray& ray) {
+Interval intervalOf(const std::vector<HalfSpace>& halfSpaces, double cutLayer, const Ray& ray) {
     Interval interval;
     for (const HalfSpace& half : halfSpaces) {
         const double inside = glm::dot(ray.origin - half.point, half.normal);
         const double rate = glm::dot(ray.direction, half.normal);
         if (rate == 0) {
-            if (inside < 0) return {infinity, infinity, glm::dvec3(0)};
+            if (inside < 0) return {infinity, infinity};
             continue;
         }
         const double t = -inside / rate;
@@ -34,6 +35,7 @@ Interval intervalOf(const std::vector<HalfSpace>& halfSpaces, const Ray& ray) {
             interval.end = std::min(interval.end, t);
         } else if (t > interval.begin) {
             interval.begin = t;
+            interval.layerEnd = cutLayer > 0 ? t + cutLayer / rate : 0.0;
             interval.normal = -half.normal;
         }
     }
@@ -58,7 +60,10 @@ std::vector<HalfSpace> slabHalfSpaces(const glm::dvec3& point, const glm::dvec3&
     return {{point - half, normal}, {point + half, -normal}};
 }
 
-ClipRegion::ClipRegion(std::vector<HalfSpace> halfSpaces) : halfSpaces_(std::move(halfSpaces)) {
+ClipRegion::ClipRegion(std::vector<HalfSpace> halfSpaces, double cutLayer)
+    : halfSpaces_(std::move(halfSpaces)), cutLayer_(cutLayer) {
+    if (!(cutLayer >= 0) || !std::isfinite(cutLayer))
+        throw std::runtime_error(fmt::format("clip plane: a layer of {}; give a length from 0", cutLayer));
     for (HalfSpace& half : halfSpaces_) {
         const double largest = std::max({std::abs(half.normal.x), std::abs(half.normal.y), std::abs(half.normal.z)});
         const double sum = half.point.x + half.point.y + half.point.z;
@@ -75,14 +80,14 @@ void ClipRegion::apply(const Camera& camera, PixelMaps& maps) const {
     const CameraFrame frame = cameraFrame(camera);
     const auto width = static_cast<std::size_t>(camera.width), height = static_cast<std::size_t>(camera.height);
     if (halfSpaces_.empty()) return;
-    cutNearer(camera, maps, 0, 0.0, glm::vec3(0));  // makes the maps
+    cutNearer(camera, maps, 0, {});  // makes the maps
     cutFarther(camera, maps, 0, infinity);
     tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
         for (std::size_t x = 0; x < width; ++x) {
             const Interval interval =
-                intervalOf(halfSpaces_, pixelRay(frame, static_cast<double>(x), static_cast<double>(y)));
+                intervalOf(halfSpaces_, cutLayer_, pixelRay(frame, static_cast<double>(x), static_cast<double>(y)));
             const std::size_t pixel = y * width + x;
-            cutNearer(camera, maps, pixel, interval.begin, glm::vec3(interval.normal));
+            cutNearer(camera, maps, pixel, {interval.begin, interval.layerEnd, glm::vec3(interval.normal)});
             cutFarther(camera, maps, pixel, interval.end);
         }
     });

@@ -19,12 +19,16 @@ std::size_t pixelCount(const Camera& camera) {
 
 }  // namespace
 
-void cutNearer(const Camera& camera, PixelMaps& maps, std::size_t pixel, double distance, const glm::vec3& normal) {
+void cutNearer(const Camera& camera, PixelMaps& maps, std::size_t pixel, const Cut& cut) {
     if (maps.nearest.empty()) maps.nearest.assign(pixelCount(camera), 0.0);
-    if (maps.nearestNormal.empty()) maps.nearestNormal.assign(pixelCount(camera), glm::vec3(0));
-    if (!(distance > maps.nearest[pixel])) return;
-    maps.nearest[pixel] = distance;
-    maps.nearestNormal[pixel] = normal;
+    if (maps.cutLayerEnd.empty()) maps.cutLayerEnd.assign(pixelCount(camera), 0.0);
+    if (maps.cutNormal.empty()) maps.cutNormal.assign(pixelCount(camera), glm::vec3(0));
+    double& nearest = maps.nearest[pixel];
+    const bool last = cut.distance > nearest || (nearest == 0.0 && cut.layerEnd > maps.cutLayerEnd[pixel]);
+    if (!last) return;
+    nearest = std::max(nearest, cut.distance);
+    maps.cutLayerEnd[pixel] = cut.layerEnd;
+    maps.cutNormal[pixel] = cut.normal;
 }
 
 void cutFarther(const Camera& camera, PixelMaps& maps, std::size_t pixel, double distance) {
@@ -52,7 +56,10 @@ void checkPixelMaps(const View& view) {
     };
     check("nearest", view.maps->nearest.size());
     check("farthest", view.maps->farthest.size());
-    check("nearestNormal", view.maps->nearestNormal.size());
+    check("cutLayerEnd", view.maps->cutLayerEnd.size());
+    check("cutNormal", view.maps->cutNormal.size());
+    if (view.maps->cutLayerEnd.size() != view.maps->cutNormal.size())
+        throw std::runtime_error("pixel map 'cutNormal': not of the size of 'cutLayerEnd'; give both or neither");
     check("extinctionScale", view.maps->extinctionScale.size());
     check("behind", view.maps->behind.size());
     const std::vector<Veil>& veils = view.maps->veils;

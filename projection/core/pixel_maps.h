@@ -34,9 +34,10 @@ struct PixelMaps {
     std::vector<double>
         nearest;  ///< distance along the unit ray (mesh units) before which nothing of the volume is seen
     std::vector<double> farthest;          ///< distance behind which nothing of the volume is seen (an opaque surface)
-    std::vector<glm::vec3> nearestNormal;  ///< world-space unit normal of what cuts the ray at `nearest`, towards the
-                                           ///< eye's side; 0: none. Light of a segment that begins at the cut uses it
-    std::vector<float> extinctionScale;    ///< factor of extinction and of the depth of isosurfaces, ≥ 0
+    std::vector<double> cutLayerEnd;     ///< distance up to which the ray runs within the layer of a cut, whose normal
+                                         ///< is lit there in the place of the field's; 0: no layer
+    std::vector<glm::vec3> cutNormal;    ///< of that layer: world space, unit, towards the eye's side
+    std::vector<float> extinctionScale;  ///< factor of extinction and of the depth of isosurfaces, ≥ 0
     std::vector<glm::vec4> behind;         ///< premultiplied RGBA put under the volume (slices, opaque surfaces)
     std::vector<Veil> veils;               ///< within the volume, between nearest and farthest; ascending
 
@@ -65,8 +66,15 @@ public:
     virtual void apply(const Camera& camera, PixelMaps& maps) const = 0;
 };
 
-/// Nothing of the volume is seen at distances less than `distance`, cut by a surface of that normal.
-void cutNearer(const Camera& camera, PixelMaps& maps, std::size_t pixel, double distance, const glm::vec3& normal);
+/// Where a ray comes into a region of which the volume is cut out.
+struct Cut {
+    double distance = 0.0;  ///< along the unit ray, mesh units; less than 0 where the eye stands within
+    double layerEnd = 0.0;  ///< PixelMaps::cutLayerEnd of this cut
+    glm::vec3 normal{0};    ///< PixelMaps::cutNormal of this cut
+};
+
+/// Nothing of the volume is seen before the cut. Of several cuts the layer of the last one that the ray meets counts.
+void cutNearer(const Camera& camera, PixelMaps& maps, std::size_t pixel, const Cut& cut);
 
 /// Nothing of the volume is seen behind `distance`.
 void cutFarther(const Camera& camera, PixelMaps& maps, std::size_t pixel, double distance);

@@ -62,7 +62,7 @@ struct Block {
     int x, y;                   ///< first pixel within the tile
     real dx, dy, in, out;       ///< pixels from the cell's reference point, nearness there
     real rayLength;             ///< per unit depth
-    [[maybe_unused]] mask cut;  ///< where a limit cuts the front
+    bool inCutLayer;            ///< the segments lie in the layer of a cut: its normal is lit
 };
 
 /// scalarFall of the block's rays in cell j.

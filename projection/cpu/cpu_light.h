@@ -35,19 +35,13 @@ HWY_INLINE SegmentMiddles segmentMiddles(real dx, real dy, real in, real out) {
     return {dx, dy, half * (ratioIn + ratioOut), half * (ratioIn * in + ratioOut * out)};
 }
 
-/// Where a segment begins at a clip surface (pixel_maps.h), that surface's normal is lit.
-struct CutSurface {
-    mask here;
-    vec3 normal;
-};
-
 /// A segment that is lit, as the short way hands it on.
 struct SegmentToLight {
-    vec3 color;             ///< C_seg/α_seg
-    real opacity;           ///< after the silhouette
-    real side;              ///< sign of s_f − s_b
-    vec3 towards;           ///< of the ray, unit, (right, down, forward)
-    const CutSurface* cut;  ///< nullptr: none of the block's segments begins at one
+    vec3 color;       ///< C_seg/α_seg
+    real opacity;     ///< after the silhouette
+    real side;        ///< sign of s_f − s_b
+    vec3 towards;     ///< of the ray, unit, (right, down, forward)
+    const vec3* cut;  ///< normal of the cut in whose layer the segments lie (pixel_maps.h); nullptr: they lie in none
 };
 
 HWY_INLINE vec3 broadcast(const glm::vec3& v) {
@@ -146,7 +140,9 @@ inline HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& ba
     point.side = segment.side;
     point.opacity = segment.opacity;
     mask lit = real(0.0f) < real(1.0f);
-    if (kept.normalAt >= 0) {
+    if (segment.cut != nullptr) {
+        point.normal = worldFromCamera(frame, *segment.cut);
+    } else if (kept.normalAt >= 0) {
         const vec3 gradient = vectorAt(values, kept.normalAt, weights);
         const real square = dot(gradient, gradient);
         lit = square > real(1e-30f);
@@ -154,10 +150,6 @@ inline HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& ba
     } else {
         point.normal =
             worldFromCamera(frame, vec3(real(batch.normal[0][j]), real(batch.normal[1][j]), real(batch.normal[2][j])));
-    }
-    if (segment.cut != nullptr) {
-        point.normal = select(segment.cut->here, worldFromCamera(frame, segment.cut->normal), point.normal);
-        lit = either(segment.cut->here, both(lit, real(batch.gradient[j]) + real(kept.normalAt + 1) > real(0.0f)));
     }
     if (kept.tensorAt >= 0)
         setAnisotropy(model, vectorAt(values, kept.tensorAt, weights), vectorAt(values, kept.tensorAt + 3, weights),

@@ -22,11 +22,12 @@ constexpr float noLimit = 3e38f;
 /// A tile's part of TileLimits, in the order of its accumulators.
 template <std::size_t pixels>
 struct LimitBuffers {
-    alignas(64) float nearest[pixels], farthest[pixels], scale[pixels], normal[3][pixels];
+    alignas(64) float nearest[pixels], farthest[pixels], layerEnd[pixels], scale[pixels], normal[3][pixels];
 
     void clear() {
         std::fill_n(nearest, pixels, noLimit);
         std::fill_n(farthest, pixels, -noLimit);
+        std::fill_n(layerEnd, pixels, noLimit);
         std::fill_n(scale, pixels, 1.0f);
         for (auto& axis : normal) std::fill_n(axis, pixels, 0.0f);
     }
@@ -34,8 +35,9 @@ struct LimitBuffers {
         if (!limits.nearest.empty()) nearest[at] = limits.nearest[pixel];
         if (!limits.farthest.empty()) farthest[at] = limits.farthest[pixel];
         if (!limits.scale.empty()) scale[at] = limits.scale[pixel];
-        if (!limits.normal.empty())
-            for (std::size_t axis = 0; axis < 3; ++axis) normal[axis][at] = limits.normal[pixel][axis];
+        if (limits.layerEnd.empty()) return;
+        layerEnd[at] = limits.layerEnd[pixel];
+        for (std::size_t axis = 0; axis < 3; ++axis) normal[axis][at] = limits.normal[pixel][axis];
     }
 };
 

@@ -10,9 +10,13 @@ namespace tetralux::projection {
 TileLimits tileLimits(const PixelMaps& maps, const CameraFrame& camera, const TileFrame& frame,
                       const SceneUnits& units) {
     NearnessMaps nearness = nearnessMaps(maps, camera, units, frame.depthReference);
-    TileLimits limits{std::move(nearness.nearest), std::move(nearness.farthest), maps.extinctionScale, {}};
-    limits.normal.reserve(maps.nearestNormal.size());
-    for (const glm::vec3& world : maps.nearestNormal) {
+    TileLimits limits{std::move(nearness.nearest),
+                      std::move(nearness.farthest),
+                      std::move(nearness.cutLayerEnd),
+                      maps.extinctionScale,
+                      {}};
+    limits.normal.reserve(maps.cutNormal.size());
+    for (const glm::vec3& world : maps.cutNormal) {
         const glm::dvec3 normal(world);
         limits.normal.push_back({static_cast<float>(glm::dot(normal, camera.right)),
                                  static_cast<float>(-glm::dot(normal, camera.up)),

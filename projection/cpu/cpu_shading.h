@@ -43,7 +43,7 @@ HWY_INLINE real opacityOfDepth(real depth) {
 template <bool ScaleInvariant, class Middles, class Place>
 HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& batch, std::size_t j,
                                       const SegmentSink& sink, const Segments& segments, real fall, vec3 towards,
-                                      const Middles& middles, const Place& place, const CutSurface* cut = nullptr) {
+                                      const Middles& middles, const Place& place, const vec3* cut = nullptr) {
     const auto& shading = *frame.shading;
     const real magnitude(batch.gradient[j]);
     const vec3 normal{real(batch.normal[0][j]), real(batch.normal[1][j]), real(batch.normal[2][j])};
@@ -73,19 +73,15 @@ HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& b
     if (!shading.lit()) return {mean.x, mean.y, mean.z, opacity, depth};
 
     real side = select(fall > real(0.0f), real(1.0f), select(fall < real(0.0f), real(-1.0f), real(0.0f)));
-    const bool anyCut = cut != nullptr && !none(cut->here);
-    vec3 facing = normal;
-    if (anyCut) {
-        facing = select(cut->here, cut->normal, normal);
-        side = select(cut->here, real(1.0f), side);
-    }
+    if (cut != nullptr) side = real(1.0f);
     if (HWY_UNLIKELY(frame.lightInFull)) {
         const vec3 lit =
-            lightInFull(frame, batch, j, middles(), place(), {mean, opacity, side, towards, anyCut ? cut : nullptr});
+            lightInFull(frame, batch, j, middles(), place(), {mean, opacity, side, towards, cut});
         return {lit.x, lit.y, lit.z, opacity, depth};
     }
     vec3 light = real(shading.ambient) * mean;
-    if (batch.gradient[j] > 0 || anyCut) {
+    if (batch.gradient[j] > 0 || cut != nullptr) {
+        const vec3 facing = cut != nullptr ? *cut : normal;
         const real transmitted = shading.transmission ? real(1.0f) - opacity : real(0.0f);
         for (const auto& source : frame.lights)
             light = light + lightTerm(mean, facing, -towards, vec3(real(source[0]), real(source[1]), real(source[2])),

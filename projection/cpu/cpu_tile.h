@@ -50,8 +50,9 @@ enum class TileKind {
 /// Pixel maps (pixel_maps.h) in the terms of tiles, width·height each.
 struct TileLimits {
     std::vector<float> nearest, farthest;      ///< as nearness along rays: segments lie between
+    std::vector<float> layerEnd;               ///< likewise: where the layer of a cut ends; empty: none
     std::vector<float> scale;                  ///< of extinction; empty: 1
-    std::vector<std::array<float, 3>> normal;  ///< of the cut at `nearest`, as (right, down, forward); empty: none
+    std::vector<std::array<float, 3>> normal;  ///< of that cut, as (right, down, forward)
 };
 
 /// How segments of TileKind::Shaded are shaded.

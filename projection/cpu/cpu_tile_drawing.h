@@ -42,6 +42,7 @@ public:
         }
         laneX_ = loadAligned(x);
         laneY_ = loadAligned(y);
+        layered_ = frame.limits != nullptr && !frame.limits->layerEnd.empty() && frame.shading->lit();
         clear();
     }
 
@@ -80,6 +81,9 @@ private:
     static constexpr GradientParts gradients = usesNormals                 ? GradientParts::All
                                                : look == Look::Silhouettes ? GradientParts::Magnitude
                                                                            : GradientParts::None;
+    /// Light falls on the layers of cuts by their own normals, so segments are divided at the end of one.
+    static constexpr bool cutLayers =
+        Limited && (Kind == TileKind::Shaded || Kind == TileKind::FirstHit || Kind == TileKind::Additive);
     static constexpr bool looksAtPeaks = look != Look::General && Peaks && Kind == TileKind::Composite;
     static constexpr int rows = static_cast<int>(laneCount()) / columnWidth;
 
@@ -171,8 +175,24 @@ private:
     template <CellShows shows>
     HWY_INLINE void drawBlock(std::size_t j, std::size_t at, int x, int y, real dx, real dy, real in, real out,
                               std::size_t first, std::size_t last) {
-        [[maybe_unused]] mask cut = in < in;
-        if constexpr (Limited) cut = limit(j, at, in, out);
+        if constexpr (Limited) limit(j, at, in, out);
+        if constexpr (cutLayers) {
+            if (layered_) {
+                const real end = rhoOfNearness(j, loadAt(limits_.layerEnd + at)), layerOut = max(out, end);
+                if (!none(in > layerOut))
+                    drawSegments<shows>({j, at, x, y, dx, dy, in, layerOut, real(0.0f), true}, first, last);
+                in = min(in, end);
+            }
+        }
+        drawSegments<shows>({j, at, x, y, dx, dy, in, out, real(0.0f), false}, first, last);
+    }
+
+    /// The block's rays from `in` to `out`; its ray lengths are set here.
+    template <CellShows shows>
+    HWY_INLINE void drawSegments(Block block, std::size_t first, std::size_t last) {
+        const std::size_t j = block.j, at = block.at;
+        const real dx = block.dx, dy = block.dy;
+        real &in = block.in, &out = block.out;
         mask live = in > out;
         const real t = loadAt(px_.t + at);
         if constexpr (colors || Kind == TileKind::Depth)
@@ -190,6 +210,7 @@ private:
             perRho{batch_.scalarPerRho[j]}, low{batch_.scalarLow[j]}, high{batch_.scalarHigh[j]},
             scale{look == Look::General ? batch_.scale[j] : look_.lengthScale};
         const real rayLength = loadAt(px_.rayLength + at);
+        block.rayLength = rayLength;
         real across(0.0f);
         if constexpr (Orthographic) {
             segments.front = scalarOrthographic(scalar, perX, perY, perRho, dx, dy, in, low, high);
@@ -211,7 +232,7 @@ private:
             if constexpr (look == Look::General)
                 integrate(first, last, segments, sink);
             else
-                integrateLooked<shows>({j, at, x, y, dx, dy, in, out, rayLength, cut}, scalarFall(across, perRho),
+                integrateLooked<shows>(block, scalarFall(across, perRho),
                                        first, last, segments, sink);
             storeAt(sink.r, px_.r + at);
             storeAt(sink.g, px_.g + at);
@@ -219,7 +240,7 @@ private:
             storeAt(sink.t, px_.t + at);
         } else if constexpr (Kind == TileKind::Absorption) {
             if constexpr (Limited) {
-                drawDepth({j, at, x, y, dx, dy, in, out, rayLength, cut}, t, first, last, segments);
+                drawDepth(block, t, first, last, segments);
             } else if constexpr (look == Look::Silhouettes) {
                 BlockLook pixels;
                 pixels.fall = scalarFall(across, perRho);
@@ -232,7 +253,7 @@ private:
                 storeAt(sink.depth, px_.t + at);
             }
         } else if constexpr (Kind == TileKind::Additive) {
-            drawAdditive({j, at, x, y, dx, dy, in, out, rayLength, cut}, t, first, last, segments);
+            drawAdditive(block, t, first, last, segments);
         } else if constexpr (Kind == TileKind::Depth) {
             drawFirstShown(j, at, in, rayLength, t, first, last, segments);
         } else if constexpr (Kind == TileKind::Contribution) {
@@ -250,7 +271,7 @@ private:
             storeAt(loadAt(px_.r + at) + mean * segments.length, px_.r + at);
             storeAt(t + segments.length, px_.t + at);
         } else {
-            drawShaded({j, at, x, y, dx, dy, in, out, rayLength, cut}, t, first, last, segments);
+            drawShaded(block, t, first, last, segments);
         }
     }
 
@@ -323,11 +344,10 @@ private:
         if constexpr (Limited) {
             const vec3 normal(loadAt(limits_.normal[0] + block.at), loadAt(limits_.normal[1] + block.at),
                               loadAt(limits_.normal[2] + block.at));
-            const CutSurface surface{both(block.cut, dot(normal, normal) > real(0.5f)), normal};
+            const vec3* cut = block.inCutLayer ? &normal : nullptr;
             return frame_.scaleInvariant
-                       ? shadeSegment<true>(frame_, batch_, j, sink, segments, fall, towards, middles, place, &surface)
-                       : shadeSegment<false>(frame_, batch_, j, sink, segments, fall, towards, middles, place,
-                                             &surface);
+                       ? shadeSegment<true>(frame_, batch_, j, sink, segments, fall, towards, middles, place, cut)
+                       : shadeSegment<false>(frame_, batch_, j, sink, segments, fall, towards, middles, place, cut);
         } else {
             return shadeSegment<ScaleInvariant>(frame_, batch_, j, sink, segments, fall, towards, middles, place);
         }
@@ -356,14 +376,14 @@ private:
                 pixel * (laneY_ + real(y0_ + block.y - frame_.centre.y)), real(1.0f)};
     }
 
-    /// Cuts the interval by the pixels' limits; where it then begins at the nearer one.
-    HWY_INLINE mask limit(std::size_t j, std::size_t at, real& in, real& out) const {
-        const real perNearness(1.0f / batch_.nearnessPerRho[j]), nearness(batch_.nearness[j]);
-        const real nearest = (loadAt(limits_.nearest + at) - nearness) * perNearness;
-        out = max(out, (loadAt(limits_.farthest + at) - nearness) * perNearness);
-        const mask cut = nearest < in;
-        in = min(in, nearest);
-        return cut;
+    HWY_INLINE real rhoOfNearness(std::size_t j, real nearness) const {
+        return (nearness - real(batch_.nearness[j])) * real(1.0f / batch_.nearnessPerRho[j]);
+    }
+
+    /// Cuts the interval by the pixels' limits.
+    HWY_INLINE void limit(std::size_t j, std::size_t at, real& in, real& out) const {
+        out = max(out, rhoOfNearness(j, loadAt(limits_.farthest + at)));
+        in = min(in, rhoOfNearness(j, loadAt(limits_.nearest + at)));
     }
 
     /// Either integral with scaled extinction is the standard one over another path.
@@ -474,6 +494,7 @@ private:
     const int x0_, y0_;
     TileResult& result_;
     real laneX_, laneY_;
+    bool layered_ = false;  // cuts have layers that show
     CellBatch batch_;
     CellLook look_;
     PeakLooks peakLooks_;

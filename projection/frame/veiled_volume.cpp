@@ -37,17 +37,16 @@ PixelMaps partOf(const PixelMaps& whole, const VeilLists& veils, std::size_t pix
     PixelMaps maps;
     maps.nearest = whole.nearest;
     maps.farthest = whole.farthest;
-    maps.nearestNormal = whole.nearestNormal;
+    maps.cutLayerEnd = whole.cutLayerEnd;
+    maps.cutNormal = whole.cutNormal;
     maps.extinctionScale = whole.extinctionScale;
     maps.nearest.resize(pixels, 0.0);
-    maps.nearestNormal.resize(pixels, glm::vec3(0));
     maps.farthest.resize(pixels, std::numeric_limits<double>::infinity());
     for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
         const std::size_t count = veils.count(pixel);
         if (part > 0) {
             const double begin = count > 0 ? veils.of(pixel, std::min(part, count) - 1).distance : 1.0;
             maps.nearest[pixel] = std::max(maps.nearest[pixel], begin);
-            maps.nearestNormal[pixel] = glm::vec3(0);  // the volume goes on: nothing cuts it
             if (part > count) maps.farthest[pixel] = maps.nearest[pixel];
         }
         if (part < count) maps.farthest[pixel] = std::min(maps.farthest[pixel], veils.of(pixel, part).distance);

@@ -7,7 +7,9 @@
 uniform vec2 centre;        // pixel coordinates of the optical axis
 
 #if TETRALUX_LIMITS
-uniform sampler2D limits;  // nearness at which the volume begins and ends, factor of extinction (projection/cells/ray_nearness.h)
+// Nearness at which the volume begins and ends, factor of extinction, nearness at which the layer of a cut ends
+// (projection/cells/ray_nearness.h).
+uniform sampler2D limits;
 uniform sampler2D cutNormals;
 uniform float depthReference;
 
@@ -70,23 +72,10 @@ float distanceTo(CellRecord cell, float rho, vec2 fromCentre) {
 }
 #endif
 
-// What the cell adds to the pixel at these whole numbers, premultiplied; false where it adds nothing.
-bool drawPixel(CellRecord cell, ivec2 place, out vec4 result) {
+// What the segment of the cell between rho.x and rho.y adds to the pixel, premultiplied; false where it adds nothing. `cutNormal` is lit
+// in the place of the field's where it is not zero.
+bool drawSegment(CellRecord cell, vec2 pixel, float dx, float dy, vec2 rho, vec3 cutNormal, out vec4 result) {
     result = vec4(0.0);
-    vec2 pixel = vec2(place);
-    float dx = (pixel.x - cell.pixel.x) - cell.fraction.x;
-    float dy = (pixel.y - cell.pixel.y) - cell.fraction.y;
-    vec2 rho = rhoInterval(cell, dx, dy);
-    vec3 cutNormal = vec3(0.0);
-#if TETRALUX_LIMITS
-    vec4 limit = texelFetch(limits, place, 0);
-    float nearest = rhoOfNearness(cell, limit.x);
-#if TETRALUX_LIGHTS
-    if (nearest < rho.x) cutNormal = texelFetch(cutNormals, place, 0).xyz;
-#endif
-    rho = vec2(min(rho.x, nearest), max(rho.y, rhoOfNearness(cell, limit.y)));
-    interfaceScale = limit.z;
-#endif
     if (!(rho.x > rho.y)) return false;
     float front = scalarAtRho(cell, dx, dy, rho.x);
     float back = scalarAtRho(cell, dx, dy, rho.y);
@@ -148,4 +137,48 @@ bool drawPixel(CellRecord cell, ivec2 place, out vec4 result) {
 #endif
 #endif
     return true;
+}
+
+#if TETRALUX_CUT_LAYERS
+// Puts what a ray meets next under what it has met.
+void putBehind(bool shown, vec4 behind, inout bool anything, inout vec4 result) {
+    if (!shown) return;
+#if TETRALUX_MODE == TETRALUX_MODE_FIRST_HIT
+    if (!anything) result = behind;
+#elif TETRALUX_MODE == TETRALUX_MODE_ADDITIVE
+    result += behind;
+#else
+    result += (1.0 - result.a) * behind;
+#endif
+    anything = true;
+}
+#endif
+
+// What the cell adds to the pixel at these whole numbers, premultiplied; false where it adds nothing.
+bool drawPixel(CellRecord cell, ivec2 place, out vec4 result) {
+    vec2 pixel = vec2(place);
+    float dx = (pixel.x - cell.pixel.x) - cell.fraction.x;
+    float dy = (pixel.y - cell.pixel.y) - cell.fraction.y;
+    vec2 rho = rhoInterval(cell, dx, dy);
+#if TETRALUX_LIMITS
+    vec4 limit = texelFetch(limits, place, 0);
+    rho = vec2(min(rho.x, rhoOfNearness(cell, limit.x)), max(rho.y, rhoOfNearness(cell, limit.y)));
+    interfaceScale = limit.z;
+#endif
+#if TETRALUX_CUT_LAYERS
+    float layerEnd = rhoOfNearness(cell, limit.w);
+    bool anything = false;
+    result = vec4(0.0);
+    for (int part = 0; part < 2; ++part) {
+        bool layer = part == 0;
+        vec2 within = layer ? vec2(rho.x, max(rho.y, layerEnd)) : vec2(min(rho.x, layerEnd), rho.y);
+        if (!(within.x > within.y)) continue;
+        vec4 segment;
+        bool shown = drawSegment(cell, pixel, dx, dy, within, layer ? texelFetch(cutNormals, place, 0).xyz : vec3(0.0), segment);
+        putBehind(shown, segment, anything, result);
+    }
+    return anything;
+#else
+    return drawSegment(cell, pixel, dx, dy, rho, vec3(0.0), result);
+#endif
 }

@@ -91,6 +91,7 @@ GlDefines variant(const RenderSettings& settings, const shading::VertexLight& ve
     defines.set("TETRALUX_SAMPLED", shades && settings.classification != Classification::Preintegrated);
     defines.set("TETRALUX_LINEAR_OPACITY", shades && settings.classification == Classification::PostLinear);
     defines.set("TETRALUX_LIGHTS", lights);
+    defines.set("TETRALUX_CUT_LAYERS", kind.limited && lights > 0 && settings.mode != Mode::Absorption);
     defines.set("TETRALUX_DEPTH_COLOR", shades && shading.depthColor.has_value());
     defines.set("TETRALUX_GRADIENT", shades && shading.needsGradient());
     const bool full = lights > 0 && !shading.plain();

@@ -18,7 +18,8 @@ public:
     GlLimits(const GlLimits&) = delete;
     GlLimits& operator=(const GlLimits&) = delete;
 
-    /// Uploads the maps of a frame: texels (nearest, farthest, factor of extinction, 0) and normals in world space.
+    /// Uploads the maps of a frame: texels (nearest, farthest, factor of extinction, end of the cut's layer) and the
+    /// cut's normals in world space.
     void upload(const PixelMaps& maps, const CameraFrame& frame, const SceneUnits& units, double depthReference);
 
     /// Binds limits to that texture unit and normals to the next.

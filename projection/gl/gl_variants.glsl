@@ -10,7 +10,7 @@
 //   TETRALUX_SCALE_INVARIANT  the table is a 2D one of that integral; without it a 3D one is looked up with the path as its length
 //   TETRALUX_SAMPLED          post-classification, pre-classification where TETRALUX_SAMPLE_AT ≥ 0; TETRALUX_LINEAR_OPACITY: linear form
 //   TETRALUX_DEPTH_COLOR      colours go over into another one with the distance (shading/lights.h)
-//   TETRALUX_LIMITS           the view has pixel maps
+//   TETRALUX_LIMITS           the view has pixel maps; TETRALUX_CUT_LAYERS: light falls on the layers of their cuts
 //   TETRALUX_TILES            compute tiles (gl_tile_draw.comp), else fragments
 #define TETRALUX_MODE_VOLUME 0
 #define TETRALUX_MODE_MIP 1

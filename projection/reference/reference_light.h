@@ -13,7 +13,7 @@ struct SegmentToLight {
     glm::dvec3 direction;  ///< of the ray, unit
     double fromEye;        ///< from the ray's start to the middle, mesh units
     glm::dvec3 normal;     ///< of the cell's gradient, unit; zero where there is none
-    bool cut = false;      ///< begins where a surface cuts the volume: `normal` is the cut's, and the side its front
+    bool cut = false;      ///< within the layer of a cut: `normal` is the cut's, and the side its front
     double side;           ///< sign of s_f − s_b
     glm::dvec3 color;      ///< C_seg/α_seg
     double opacity;        ///< after the silhouette

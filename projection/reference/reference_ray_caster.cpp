@@ -264,6 +264,21 @@ double signOfFall(const RaySegment& segment, double cosine) {
     return sign > 0 ? 1.0 : sign < 0 ? -1.0 : 0.0;
 }
 
+/// Whether the colour of segments in light is seen, so that what light falls on divides them.
+bool showsLight(const RenderSettings& settings) {
+    switch (settings.mode) {
+        case Mode::Standard:
+        case Mode::ScaleInvariant:
+        case Mode::FirstHit:
+        case Mode::Additive:
+        case Mode::DataAdditive:
+        case Mode::Emission:
+            return settings.shading.lit();
+        default:
+            return false;
+    }
+}
+
 Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& ray, const RaySegment& segment,
              const glm::dvec3& cutNormal, const DepthRange& depths) {
     const auto& shading = scene.settings.shading;
@@ -306,7 +321,7 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
     const double fromEye = 0.5 * segment.tIn + 0.5 * segment.tOut;
     if (!shading.lit()) return {colorAtDepth(shading, depths, fromEye, meanColor) * weight, opacity, depth};
 
-    const bool cut = segment.cutInFront && cutNormal != glm::dvec3(0);
+    const bool cut = segment.inCutLayer;
     SegmentToLight lit;
     lit.cell = segment.cell;
     lit.middle = middle;
@@ -327,7 +342,10 @@ ReferenceRayCaster::PixelLimits ReferenceRayCaster::limitsAt(const PixelMaps* ma
     if (maps == nullptr) return limits;
     if (!maps->nearest.empty()) limits.nearest = maps->nearest[pixel];
     if (!maps->farthest.empty()) limits.farthest = maps->farthest[pixel];
-    if (!maps->nearestNormal.empty()) limits.cutNormal = maps->nearestNormal[pixel];
+    if (!maps->cutLayerEnd.empty()) {
+        limits.cutLayerEnd = maps->cutLayerEnd[pixel];
+        limits.cutNormal = maps->cutNormal[pixel];
+    }
     if (!maps->extinctionScale.empty()) limits.extinctionScale = static_cast<double>(maps->extinctionScale[pixel]);
     const auto [first, last] =
         std::equal_range(maps->veils.begin(), maps->veils.end(), Veil{static_cast<std::uint32_t>(pixel), 0.0, {}},
@@ -340,6 +358,7 @@ glm::dvec4 ReferenceRayCaster::colorOf(const Ray& ray, const PixelLimits& limits
                                        std::vector<RaySegment>& segments) const {
     if (limits.nearest > 0 || limits.farthest < HUGE_VAL)
         std::erase_if(segments, [&](RaySegment& s) { return !limit(s, limits.nearest, limits.farthest); });
+    if (limits.cutLayerEnd > 0 && showsLight(scene_.settings)) splitAtLayerEnd(segments, limits.cutLayerEnd);
     const auto drawn = [&](const preint::ExactIntegral& exact) {
         return limits.veils.empty() ? composite(ray, exact, limits, segments)
                                     : betweenVeils(ray, exact, limits, segments);
@@ -357,12 +376,7 @@ glm::dvec4 ReferenceRayCaster::betweenVeils(const Ray& ray, const preint::ExactI
     for (std::size_t i = 0; i <= limits.veils.size(); ++i) {
         const double end = i < limits.veils.size() ? limits.veils[i].distance : HUGE_VAL;
         std::vector<RaySegment> within = segments;
-        std::erase_if(within, [&](RaySegment& s) {
-            const bool atLimit = s.cutInFront && begin <= s.tIn;
-            const bool empty = !limit(s, begin, end);
-            s.cutInFront = atLimit;  // a veil cuts nothing: the volume goes on behind it
-            return empty;
-        });
+        std::erase_if(within, [&](RaySegment& s) { return !limit(s, begin, end); });
         sum += (1.0 - sum.w) * composite(ray, exact, part, within);
         if (i < limits.veils.size()) sum += (1.0 - sum.w) * glm::dvec4(limits.veils[i].color);
         begin = end;

@@ -25,7 +25,7 @@ struct RaySegment {
     double tIn, tOut;
     double scalarIn, scalarOut;
     mesh::CellIndex cell;
-    bool cutInFront = false;  ///< begins where a pixel map lets the volume begin
+    bool inCutLayer = false;  ///< lit by the normal of a cut (PixelMaps::cutLayerEnd)
 };
 
 struct RayCastCounts {
@@ -54,7 +54,8 @@ private:
     /// What the pixel maps say of one pixel.
     struct PixelLimits {
         double nearest = 0.0, farthest = HUGE_VAL;
-        glm::dvec3 cutNormal{0};  ///< used for light where a segment begins at `nearest`; 0: none
+        double cutLayerEnd = 0.0;  ///< up to here light falls on `cutNormal`
+        glm::dvec3 cutNormal{0};
         double extinctionScale = 1.0;
         DepthRange depths{0.0, 1.0};                      ///< of the camera, the same for all pixels
         std::span<const Veil> veils;                      ///< of the pixel, by distance

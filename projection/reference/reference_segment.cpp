@@ -142,14 +142,25 @@ bool limit(RaySegment& segment, double nearest, double farthest) {
     if (!(tOut > tIn)) return false;
     const double from = segment.scalarIn, to = segment.scalarOut, start = segment.tIn;
     const double length = segment.tOut - segment.tIn;
-    if (tIn > segment.tIn) {
-        segment.scalarIn = glm::mix(from, to, (tIn - start) / length);
-        segment.cutInFront = true;
-    }
+    if (tIn > segment.tIn) segment.scalarIn = glm::mix(from, to, (tIn - start) / length);
     if (tOut < segment.tOut) segment.scalarOut = glm::mix(from, to, (tOut - start) / length);
     segment.tIn = tIn;
     segment.tOut = tOut;
     return true;
+}
+
+void splitAtLayerEnd(std::vector<RaySegment>& segments, double layerEnd) {
+    for (std::size_t i = 0, count = segments.size(); i < count; ++i) {
+        RaySegment& segment = segments[i];
+        segment.inCutLayer = segment.tIn < layerEnd;
+        if (!segment.inCutLayer || !(segment.tOut > layerEnd)) continue;
+        RaySegment behind = segment;
+        behind.inCutLayer = false;
+        behind.scalarIn = segment.scalarOut = glm::mix(segment.scalarIn, segment.scalarOut,
+                                                       (layerEnd - segment.tIn) / (segment.tOut - segment.tIn));
+        behind.tIn = segment.tOut = layerEnd;
+        segments.push_back(behind);
+    }
 }
 
 preint::TransferFunction scaledExtinction(preint::TransferFunction function, double scale) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <preint/exact_integral.h>
 #include <projection/reference/reference_ray_caster.h>
@@ -24,6 +25,9 @@ UnshadedSegment unshadedSegment(const preint::ExactIntegral& exact, const Scene&
 
 /// Cuts a segment to what lies between two distances; false when nothing does.
 bool limit(RaySegment& segment, double nearest, double farthest);
+
+/// Splits the segment at the end of a cut's layer, and tells which ones lie within.
+void splitAtLayerEnd(std::vector<RaySegment>& segments, double layerEnd);
 
 /// The function with extinction and the depth of its isosurfaces multiplied by `scale`.
 preint::TransferFunction scaledExtinction(preint::TransferFunction function, double scale);

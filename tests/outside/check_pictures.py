@@ -20,6 +20,7 @@ SIZE = (48, 40)
 PIXELS = 24  # per case
 # largest difference of a component. reference: an EXR holds floats; cpu: float sums, closed forms to 1e-6, half-way vectors of nearly opposite ones; gl: tables made for 1e-4
 LIMITS = {"reference": 1e-7, "cpu": 1e-5, "gl": 1e-4}
+NOT_OF_LIGHT = ("silhouette", "clips", "clip_options", "cut_layer")
 CONTEXTS = {"gl": ["egl", "osmesa"]}
 FIVE = (((0, 1, 2, 4), (1, 3, 2, 7), (1, 2, 4, 7), (1, 4, 5, 7), (2, 6, 4, 7)), ((1, 0, 3, 5), (0, 2, 3, 6), (0, 3, 5, 6), (0, 5, 4, 6), (3, 5, 6, 7)))
 
@@ -30,13 +31,17 @@ TRANSFER = {
 PEAKS = [{"value": v, "opacity": a, "color": c} for v, a, c in ((0.21, 0.3, [1, 0.5, 0.1]), (0.52, 0.6, [0.2, 0.9, 0.3]), (0.83, 0.95, [0.1, 0.1, 1]))]
 
 
-def jittered_grid(points_per_edge, seed):
+def jittered_grid(points_per_edge, seed, flat_middle=False):
+    """Points, scalars and tetrahedra; `flat_middle`: the middle points of z stay in their plane, so that a cut can run along faces."""
     rng, n = random.Random(seed), points_per_edge
     points, scalars = [], []
     for z in range(n):
         for y in range(n):
             for x in range(n):
-                points.append(tuple((c + rng.uniform(-0.12, 0.12)) / (n - 1) for c in (x, y, z)))
+                moved = [(c + rng.uniform(-0.12, 0.12)) / (n - 1) for c in (x, y, z)]
+                if flat_middle and 2 * z == n - 1:
+                    moved[2] = 0.5
+                points.append(tuple(moved))
                 scalars.append(rng.random())
     tetrahedra = []
     for z in range(n - 1):
@@ -85,6 +90,21 @@ def lights():
             "Blinn-Phong two-sided": look_of([*lamps, back], reflectance="blinn-phong", **two_sided)}
 
 
+def cuts(lit):
+    """Clip planes, as options and as planes; what lies close behind the one through which a ray comes in is lit by its normal."""
+    oblique, along_faces = ((0.5, 0.5, 0.5), (-1.0, -0.4, 0.3)), ((0.5, 0.5, 0.5), (0.0, 0.0, -1.0))
+    option = lambda plane: "--clip-plane=" + triple(plane[0] + plane[1])
+    box = [((0.2, 0.1, 0.1), (1, 0, 0)), ((0.8, 0.9, 0.7), (-1, 0, 0)), ((0.2, 0.1, 0.1), (0, 1, 0)), ((0.8, 0.9, 0.7), (0, -1, 0)),
+           ((0.2, 0.1, 0.1), (0, 0, 1)), ((0.8, 0.9, 0.7), (0, 0, -1))]
+    slab = [((0.5, 0.5, 0.35), (0, 0, 1)), ((0.5, 0.5, 0.65), (0, 0, -1))]
+    for name, planes, options, layer in (
+            ("oblique", [oblique], [option(oblique)], 0.05), ("along faces", [along_faces], [option(along_faces)], 0.05),
+            ("along faces, thin", [along_faces], [option(along_faces)], 1e-3), ("along faces, none", [along_faces], [option(along_faces)], 0.0),
+            ("along faces, all", [along_faces], [option(along_faces)], 2.0), ("box", box, ["--clip-box=0.2,0.8,0.1,0.9,0.1,0.7"], 0.03),
+            ("slab", slab, ["--slab=0.5,0.5,0.5,0,0,1,0.3"], 0.02)):
+        yield name, dict(lit, clips=planes, clip_options=options, cut_layer=layer)
+
+
 def cases():
     outside, inside = Camera((1.9, 1.4, 2.3), (0.5, 0.5, 0.5)), Camera((0.43, 0.55, 0.61), (0.9, 0.2, 0.1), fov=70.0)
     flat = Camera((0.5, 0.5, 3.0), (0.5, 0.5, 0.5), height=1.3)
@@ -99,6 +119,9 @@ def cases():
     for k, (name, look) in enumerate(lights().items()):
         mode, camera = ("standard", "scale-invariant")[k % 2], (outside, outside, flat)[k % 3]
         yield f"{mode} {name}", mode, PEAKS[:2], camera, dict(look, silhouette=k % 4 > 1)
+    for k, (name, look) in enumerate(cuts(lit)):
+        for camera in (outside, (flat, inside)[k % 2]):
+            yield f"{'standard' if k % 2 else 'scale-invariant'} cut {name}", "standard" if k % 2 else "scale-invariant", PEAKS, camera, look
     yield "scale-invariant silhouettes light", "scale-invariant", PEAKS, outside, dict(lit, silhouette=True)
 
 
@@ -114,8 +137,10 @@ def draw(program, mesh, transfer, out, mode, camera, look, engine):
     if look["lights"]:
         lighting = out + ".lighting.json"
         with open(lighting, "w") as file:
-            json.dump({key: value for key, value in look.items() if key != "silhouette"}, file)
+            json.dump({key: value for key, value in look.items() if key not in NOT_OF_LIGHT}, file)
         command += ["--lighting", lighting]
+    command += look.get("clip_options", [])
+    command += ["--cut-layer", repr(look["cut_layer"])] if "cut_layer" in look else []
     subprocess.run(command, check=True)
     return exr.read(out)
 
@@ -127,13 +152,16 @@ def difference(a, b):
 
 def main(program, folder):
     os.makedirs(folder, exist_ok=True)
-    mesh, transfer, picture = (os.path.join(folder, name) for name in ("mesh.vtk", "transfer.json", "picture.exr"))
-    points, scalars, tetrahedra = jittered_grid(5, seed=3)
-    write_vtk(mesh, points, scalars, tetrahedra)
-    cells = [Cell([points[i] for i in tet], [scalars[i] for i in tet]) for tet in tetrahedra]
+    transfer, picture = (os.path.join(folder, name) for name in ("transfer.json", "picture.exr"))
+    meshes = {}
+    for flat_middle in (False, True):
+        points, scalars, tetrahedra = jittered_grid(5, 3, flat_middle)
+        path = os.path.join(folder, "flat_middle.vtk" if flat_middle else "mesh.vtk")
+        write_vtk(path, points, scalars, tetrahedra)
+        meshes[flat_middle] = path, [Cell([points[i] for i in tet], [scalars[i] for i in tet]) for tet in tetrahedra]
     failures, rng = 0, random.Random(7)
     for name, mode, peaks, camera, look in cases():
-        description = dict(TRANSFER, isosurfaces=peaks)
+        description, (mesh, cells) = dict(TRANSFER, isosurfaces=peaks), meshes["clips" in look]
         with open(transfer, "w") as out:
             json.dump(description, out)
         wanted = {}

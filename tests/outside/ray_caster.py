@@ -179,12 +179,39 @@ def _lit(color, opacity, normal, d, facing, look, place, from_eye):
     return out
 
 
-def pixel(cells, camera, tf, mode, look, x, y, size):
-    """Premultiplied (r, g, b, a) over nothing. `look`: a lighting file with every key there, and "silhouette"."""
-    origin, d = camera.ray(x, y, size)
+def clipped(planes, layer, origin, d):
+    """Where a ray is within all planes, each (point, normal to the side that stays), and up to where the normal of the one through which
+    it comes in is lit: begin, end, end of the layer, that normal to the eye's side."""
+    begin, end, layer_end, cut = -math.inf, math.inf, -math.inf, None
+    for point, normal in planes:
+        normal = unit(normal)
+        inside, rate = dot(sub(origin, point), normal), dot(d, normal)
+        if rate > 0 and -inside / rate > begin:
+            begin, layer_end, cut = -inside / rate, (layer - inside) / rate, tuple(-n for n in normal)
+        elif rate < 0:
+            end = min(end, -inside / rate)
+        elif rate == 0 and inside < 0:
+            begin = math.inf
+    return begin, end, layer_end, cut
+
+
+def pieces(cells, look, origin, d):
+    """The cells along a ray from front to back, as (enter, leave, cell, normal of the cut in whose layer that lies or None)."""
+    begin, end, layer_end, cut = clipped(look.get("clips", []), look.get("cut_layer", 0.0), origin, d)
     met = sorted(((*interval, cell) for cell in cells if (interval := cell.interval(origin, d))), key=lambda m: m[0] + m[1])
-    color, transparency = [0.0, 0.0, 0.0], 1.0
     for enter, leave, cell in met:
+        enter, leave = max(enter, begin), min(leave, end)
+        middle = min(max(enter, layer_end), leave) if look["lights"] else enter
+        for first, last, normal in ((enter, middle, cut), (middle, leave, None)):
+            if first < last:
+                yield first, last, cell, normal
+
+
+def pixel(cells, camera, tf, mode, look, x, y, size):
+    """Premultiplied (r, g, b, a) over nothing. `look`: a lighting file with every key there, "silhouette", and what is cut off."""
+    origin, d = camera.ray(x, y, size)
+    color, transparency = [0.0, 0.0, 0.0], 1.0
+    for enter, leave, cell, cut in pieces(cells, look, origin, d):
         front, back = cell.scalar(along(origin, enter, d)), cell.scalar(along(origin, leave, d))
         emitted, depth, through = segment(tf, mode, front, back, leave - enter)
         opacity = 1 - math.exp(-depth) * through
@@ -197,9 +224,11 @@ def pixel(cells, camera, tf, mode, look, x, y, size):
             emitted = [c * enhanced / opacity for c in emitted]
             opacity = enhanced
         if look["lights"]:
-            normal = unit(cell.gradient) if size_of_gradient > 0 else None
+            normal, facing = unit(cell.gradient) if size_of_gradient > 0 else None, (front > back) - (front < back)
+            if cut:
+                normal, facing = cut, 1
             middle = (enter + leave) / 2
-            emitted = _lit(emitted, opacity, normal, d, (front > back) - (front < back), look, along(origin, middle, d), middle)
+            emitted = _lit(emitted, opacity, normal, d, facing, look, along(origin, middle, d), middle)
         for i in range(3):
             color[i] += transparency * emitted[i]
         transparency *= 1 - opacity

@@ -63,7 +63,7 @@ std::shared_ptr<const PixelMapSource> clipOf(const Scene& scene) {
     const double size = scene.mesh->bounds.diagonal();
     std::vector<HalfSpace> halves{{centre + 0.05 * size, {-1, -0.4, 0.3}}};
     for (const HalfSpace& half : slabHalfSpaces(centre, {0.2, 1, 0.5}, 0.4 * size)) halves.push_back(half);
-    return std::make_shared<ClipRegion>(halves);
+    return std::make_shared<ClipRegion>(halves, cutLayerShare * size);
 }
 
 EngineThreshold thresholdOf(Mode mode) {
@@ -188,7 +188,8 @@ TEST_P(Integrals, EnginesAgreeOnLightOfCuts) {
     scene.mapSources.front()->apply(camera, maps);
     scene.mapSources.clear();
     const Image with = referencePicture(scene, {camera, &maps});
-    maps.nearestNormal.clear();
+    maps.cutLayerEnd.clear();
+    maps.cutNormal.clear();
     EXPECT_GT(compareImages(with, referencePicture(scene, {camera, &maps})).rmse, 1e-3);
 }
 
@@ -197,7 +198,7 @@ TEST(ClipRegion, LeavesTheLengthOnTheSideOfTheNormal) {
     const Scene plain = sceneOf(boxMesh(3, [](const glm::dvec3& p) { return p.x; }), constantFunction(1.7));
     Scene scene = plain;
     const glm::dvec3 point(0.45, 0.5, 0.55), normal(1, -2, 0.5);
-    scene.mapSources = {std::make_shared<ClipRegion>(std::vector<HalfSpace>{{point, normal}})};
+    scene.mapSources = {std::make_shared<ClipRegion>(std::vector<HalfSpace>{{point, normal}}, 0.01)};
     const Camera camera = cameraAt({1.9, 1.4, 2.3});
     const CameraFrame frame = cameraFrame(camera);
     for (const std::string engine : {"reference", "cpu", "gl"}) {
@@ -224,7 +225,7 @@ TEST(ClipRegion, LeavesTheLengthOnTheSideOfTheNormal) {
 TEST(ClipRegion, BoxAndSlabAreHalfSpaces) {
     Scene scene = sceneOf(boxMesh(3, [](const glm::dvec3& p) { return p.x; }), constantFunction(1.7));
     const glm::dvec3 low(0.2, 0.1, 0.3), high(0.7, 0.8, 0.6);
-    scene.mapSources = {std::make_shared<ClipRegion>(boxHalfSpaces(low, high))};
+    scene.mapSources = {std::make_shared<ClipRegion>(boxHalfSpaces(low, high), 0.01)};
     const Camera camera = cameraAt({1.9, 1.4, 2.3});
     const Image image = referencePicture(scene, camera);
     const CameraFrame frame = cameraFrame(camera);
@@ -233,7 +234,8 @@ TEST(ClipRegion, BoxAndSlabAreHalfSpaces) {
             const auto [in, out] = pathInBox(pixelRay(frame, x, y), low, high);
             ASSERT_NEAR(image.at(x, y).w, -std::expm1(-1.7 * std::max(0.0, out - in)), 1e-6);
         }
-    EXPECT_THROW(ClipRegion({{glm::dvec3(0), glm::dvec3(0)}}), std::runtime_error);
+    EXPECT_THROW(ClipRegion({{glm::dvec3(0), glm::dvec3(0)}}, 0.01), std::runtime_error);
+    EXPECT_THROW(ClipRegion({{glm::dvec3(0), glm::dvec3(1)}}, -1.0), std::runtime_error);
     const auto slab = slabHalfSpaces(glm::dvec3(1), glm::dvec3(0, 0, 2), 0.5);
     EXPECT_NEAR(slab[0].point.z, 0.75, 1e-12);
     EXPECT_NEAR(slab[1].point.z, 1.25, 1e-12);

@@ -133,7 +133,7 @@ TEST(VeiledVolume, IsTheSameInEveryEngine) {
         // what is first seen must be more than a breath for engines to agree on it
         if (mode == Mode::FirstHit) scene.transferFunction.extinction = {{0.3, 0.0}, {0.3, 1.0}};
         scene.mapSources.push_back(
-            std::make_shared<const ClipRegion>(std::vector<HalfSpace>{{{0.5, 0.5, 0.7}, {0.1, 0.2, -1}}}));
+            std::make_shared<const ClipRegion>(std::vector<HalfSpace>{{{0.5, 0.5, 0.7}, {0.1, 0.2, -1}}}, 0.01));
         expectEnginesAgree(withSlices(scene, slices), ballCamera, edged,
                            "veils " + std::to_string(static_cast<int>(mode)), mode == Mode::Standard);
     }

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <mesh/soup/shape_functions.h>
 
-#include <vtkGenericCell.h>
-#include <vtkHigherOrderHexahedron.h>
-#include <vtkHigherOrderTetra.h>
-#include <vtkHigherOrderWedge.h>
-#include <vtkIdList.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
+#include <cmath>
 
 #include <mesh/soup/cell_types.h>
+#include <mesh/soup/lagrange_points.h>
+#include <mesh/soup/quadratic_functions.h>
 
 namespace tetralux::mesh {
 namespace {
+
+using Place = std::array<double, 3>;
 
 constexpr std::size_t highestOrder = 10;
 
@@ -25,18 +23,70 @@ std::size_t pointsOfOrder(Shape shape, std::size_t p) {
         case Shape::Wedge:
             return (p + 1) * (p + 1) * (p + 2) / 2;
         default:
-            return 0;  // VTK has no class for a pyramid of arbitrary order
+            return 0;  // no numbering for a pyramid of arbitrary order is agreed on
     }
 }
 
-void setOrder(vtkCell* cell, vtkIdType pointCount) {
-    if (auto* hexahedron = vtkHigherOrderHexahedron::SafeDownCast(cell)) {
-        hexahedron->SetUniformOrderFromNumPoints(pointCount);
-    } else if (auto* wedge = vtkHigherOrderWedge::SafeDownCast(cell)) {
-        wedge->SetUniformOrderFromNumPoints(pointCount);
-    } else if (auto* tetra = vtkHigherOrderTetra::SafeDownCast(cell)) {
-        tetra->Initialize();
+/// The parametric cells are products of simplices: a tetrahedron, a triangle and a line, three lines. The barycentric
+/// coordinates of all of them, of a place or of a lattice point in steps of 1/order; `one` is 1 or the order.
+template <class Number>
+std::vector<Number> barycentrics(Shape shape, const std::array<Number, 3>& at, Number one) {
+    const auto [r, s, t] = at;
+    switch (shape) {
+        case Shape::Tet:
+            return {one - r - s - t, r, s, t};
+        case Shape::Wedge:
+            return {one - r - s, r, s, one - t, t};
+        default:
+            return {one - r, r, one - s, s, one - t, t};
     }
+}
+
+int simplices(Shape shape) {
+    return shape == Shape::Tet ? 1 : shape == Shape::Wedge ? 2 : 3;
+}
+
+/// Factors of Lagrange's functions: for each i the polynomial of degree i in `l` that is 1 at i/order and 0 at the
+/// steps of 1/order below (P. Silvester: High-order polynomial triangular finite elements for potential problems,
+/// 1969).
+std::vector<double> lagrangeFactors(double l, int order) {
+    std::vector<double> factors{1.0};
+    for (int i = 0; i < order; ++i) {
+        factors.push_back(factors.back() * (order * l - i) / (i + 1));
+    }
+    return factors;
+}
+
+/// Factors of Bernstein's polynomials: lⁱ/i!. Their product over a simplex takes `order`! to be one.
+std::vector<double> bernsteinFactors(double l, int order) {
+    std::vector<double> factors{1.0};
+    for (int i = 0; i < order; ++i) {
+        factors.push_back(factors.back() * l / (i + 1));
+    }
+    return factors;
+}
+
+/// Values at one place of the functions of the points with barycentric steps `points`.
+std::vector<double> productsAt(const std::vector<double>& place, const std::vector<std::vector<int>>& points, int order,
+                               bool bezier, double scale) {
+    std::vector<std::vector<double>> factors;
+    for (const double l : place) {
+        factors.push_back(bezier ? bernsteinFactors(l, order) : lagrangeFactors(l, order));
+    }
+    std::vector<double> values;
+    for (const std::vector<int>& point : points) {
+        double product = scale;
+        for (std::size_t k = 0; k < point.size(); ++k) {
+            product *= factors[k][static_cast<std::size_t>(point[k])];
+        }
+        values.push_back(product);
+    }
+    return values;
+}
+
+bool isBezier(std::uint8_t type) {
+    return type == cell_type::bezierTetrahedron || type == cell_type::bezierHexahedron ||
+           type == cell_type::bezierWedge;
 }
 
 }  // namespace
@@ -45,6 +95,9 @@ std::optional<int> curvedCellOrder(std::uint8_t type, std::size_t pointCount) {
     const CellTypeInfo info = cellTypeInfo(type);
     if (info.linear || info.shape == Shape::None) {
         return std::nullopt;
+    }
+    if (quadraticCell(type, pointCount) != nullptr) {
+        return 2;
     }
     if (info.pointCount != 0) {
         return pointCount == static_cast<std::size_t>(info.pointCount) ? std::optional<int>(2) : std::nullopt;
@@ -57,19 +110,37 @@ std::optional<int> curvedCellOrder(std::uint8_t type, std::size_t pointCount) {
     return std::nullopt;
 }
 
+std::vector<std::array<double, 3>> curvedCellPoints(std::uint8_t type, std::size_t pointCount) {
+    if (const QuadraticCell* const own = quadraticCell(type, pointCount)) {
+        return own->points();
+    }
+    const double order = curvedCellOrder(type, pointCount).value();
+    std::vector<Place> points;
+    for (const auto& [i, j, k] : lagrangePoints(cellTypeInfo(type).shape, static_cast<int>(order))) {
+        points.push_back({i / order, j / order, k / order});
+    }
+    return points;
+}
+
 std::vector<std::vector<double>> shapeFunctions(std::uint8_t type, std::size_t pointCount,
                                                 const std::vector<std::array<double, 3>>& places) {
-    vtkNew<vtkGenericCell> generic;
-    generic->SetCellType(type);
-    vtkCell* cell = generic->GetRepresentativeCell();
-    const vtkIdType count = static_cast<vtkIdType>(pointCount);
-    cell->PointIds->SetNumberOfIds(count);
-    cell->Points->SetNumberOfPoints(count);
-    setOrder(cell, count);
     std::vector<std::vector<double>> weights;
-    for (const std::array<double, 3>& place : places) {
-        std::vector<double>& row = weights.emplace_back(pointCount, 0.0);
-        cell->InterpolateFunctions(place.data(), row.data());
+    if (const QuadraticCell* const own = quadraticCell(type, pointCount)) {
+        for (const Place& place : places) {
+            weights.push_back(own->functions(place));
+        }
+        return weights;
+    }
+    const Shape shape = cellTypeInfo(type).shape;
+    const int order = curvedCellOrder(type, pointCount).value();
+    std::vector<std::vector<int>> points;
+    for (const LatticePlace& point : lagrangePoints(shape, order)) {
+        points.push_back(barycentrics(shape, point, order));
+    }
+    const bool bezier = isBezier(type);
+    const double scale = bezier ? std::pow(std::tgamma(order + 1), simplices(shape)) : 1.0;
+    for (const Place& place : places) {
+        weights.push_back(productsAt(barycentrics(shape, place, 1.0), points, order, bezier, scale));
     }
     return weights;
 }

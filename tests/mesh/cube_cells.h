@@ -8,7 +8,6 @@
 #include <map>
 #include <vector>
 
-#include <mesh/soup/reference_lattice.h>
 #include <mesh/soup/shape_functions.h>
 
 #include "mesh_checks.h"
@@ -99,25 +98,32 @@ inline constexpr std::array linearCellKinds{CellKind{"hexahedron", addHexahedron
                                             CellKind{"wedge", addWedges},          CellKind{"pyramid", addPyramids},
                                             CellKind{"polyhedron", addPolyhedron}, CellKind{"mixed", addMixed}};
 
-/// Where the points of a curved cell lie: for each the weights of the corners of its linear cell. Found by search for
-/// the lattice points at which exactly one shape function is 1, so that tests know nothing of VTK's numbering.
+/// Where the points of a curved cell lie: for each the weights of the corners of its linear cell.
 struct CurvedNodes {
     std::vector<std::array<double, 3>> places;  ///< parametric
     std::vector<std::vector<double>> cornerWeights;
 };
 
-inline CurvedNodes curvedNodes(std::uint8_t type, std::size_t points, int order) {
-    const ReferenceLattice lattice = referenceLattice(cellTypeInfo(type).shape, order);
-    const auto weights = shapeFunctions(type, points, lattice.points);
-    CurvedNodes nodes{std::vector<std::array<double, 3>>(points, {-1, -1, -1}),
-                      std::vector<std::vector<double>>(points)};
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-        for (std::size_t k = 0; k < points; ++k) {
-            if (std::abs(weights[i][k] - 1.0) < 1e-9) {
-                nodes.places[k] = lattice.points[i];
-                nodes.cornerWeights[k] = lattice.cornerWeights[i];
-            }
-        }
+/// Weights of the corners of a linear cell at a parametric place.
+inline std::vector<double> cornerWeightsAt(Shape shape, const std::array<double, 3>& place) {
+    const auto [r, s, t] = place;
+    switch (shape) {
+        case Shape::Tet:
+            return {1 - r - s - t, r, s, t};
+        case Shape::Wedge:
+            return {(1 - r - s) * (1 - t), r * (1 - t), s * (1 - t), (1 - r - s) * t, r * t, s * t};
+        case Shape::Pyramid:
+            return {(1 - r) * (1 - s) * (1 - t), r * (1 - s) * (1 - t), r * s * (1 - t), (1 - r) * s * (1 - t), t};
+        default:
+            return {(1 - r) * (1 - s) * (1 - t), r * (1 - s) * (1 - t), r * s * (1 - t), (1 - r) * s * (1 - t),
+                    (1 - r) * (1 - s) * t,       r * (1 - s) * t,       r * s * t,       (1 - r) * s * t};
+    }
+}
+
+inline CurvedNodes curvedNodes(std::uint8_t type, std::size_t points) {
+    CurvedNodes nodes{curvedCellPoints(type, points), {}};
+    for (const std::array<double, 3>& place : nodes.places) {
+        nodes.cornerWeights.push_back(cornerWeightsAt(cellTypeInfo(type).shape, place));
     }
     return nodes;
 }
@@ -126,7 +132,6 @@ struct CurvedKind {
     const char* name;
     std::uint8_t type;
     std::size_t points;
-    int order;
     void (*addLinear)(CellSoup&, const Cube&);  ///< the linear cells that it stands in for
 };
 
@@ -134,7 +139,7 @@ struct CurvedKind {
 /// neighbours, and all of them moved by `warp`.
 inline CellSoup curvedGrid(int n, const CurvedKind& kind, const std::function<glm::dvec3(const glm::dvec3&)>& warp) {
     const CellSoup linear = cubeGrid(n, 5, straight, kind.addLinear);
-    const CurvedNodes nodes = curvedNodes(kind.type, kind.points, kind.order);
+    const CurvedNodes nodes = curvedNodes(kind.type, kind.points);
     CellSoup soup;
     std::map<std::array<long, 3>, std::uint32_t> known;
     for (std::size_t cell = 0; cell < linear.types.size(); ++cell) {
@@ -157,13 +162,16 @@ inline CellSoup curvedGrid(int n, const CurvedKind& kind, const std::function<gl
 }
 
 inline constexpr std::array curvedCellKinds{
-    CurvedKind{"tet10", cell_type::quadraticTetrahedron, 10, 2, addTetrahedra},
-    CurvedKind{"hex20", cell_type::quadraticHexahedron, 20, 2, addHexahedron},
-    CurvedKind{"hex27", cell_type::triquadraticHexahedron, 27, 2, addHexahedron},
-    CurvedKind{"wedge15", cell_type::quadraticWedge, 15, 2, addWedges},
-    CurvedKind{"pyramid13", cell_type::quadraticPyramid, 13, 2, addPyramids},
-    CurvedKind{"lagrange_tet20", cell_type::lagrangeTetrahedron, 20, 3, addTetrahedra},
-    CurvedKind{"lagrange_hex64", cell_type::lagrangeHexahedron, 64, 3, addHexahedron},
-    CurvedKind{"lagrange_wedge40", cell_type::lagrangeWedge, 40, 3, addWedges}};
+    CurvedKind{"tet10", cell_type::quadraticTetrahedron, 10, addTetrahedra},
+    CurvedKind{"hex20", cell_type::quadraticHexahedron, 20, addHexahedron},
+    CurvedKind{"hex27", cell_type::triquadraticHexahedron, 27, addHexahedron},
+    CurvedKind{"wedge15", cell_type::quadraticWedge, 15, addWedges},
+    CurvedKind{"pyramid13", cell_type::quadraticPyramid, 13, addPyramids},
+    CurvedKind{"pyramid19", cell_type::triquadraticPyramid, 19, addPyramids},
+    CurvedKind{"tet15", cell_type::lagrangeTetrahedron, 15, addTetrahedra},
+    CurvedKind{"wedge21", cell_type::lagrangeWedge, 21, addWedges},
+    CurvedKind{"lagrange_tet20", cell_type::lagrangeTetrahedron, 20, addTetrahedra},
+    CurvedKind{"lagrange_hex64", cell_type::lagrangeHexahedron, 64, addHexahedron},
+    CurvedKind{"lagrange_wedge40", cell_type::lagrangeWedge, 40, addWedges}};
 
 }  // namespace tetralux::mesh::test

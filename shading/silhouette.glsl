@@ -9,5 +9,10 @@ TETRALUX_GLSL_FUNCTION real approximateSilhouetteOpacity(real opacity, real dept
     return min(perDepth * enhanced, real(1.0));
 }
 
-// Equation 11: the linear form of post-classification.
-TETRALUX_GLSL_FUNCTION real linearOpacity(real depth) { return min(depth, real(1.0)); }
+// Equation 11, the linear form of post-classification, α = min(1, D): what makes of D the depth of that opacity, −ln(1 − min(1, D)), as
+// a factor of D. All that follows (silhouettes, light) takes the segment as one of that depth, as Equation 15 asks.
+TETRALUX_GLSL_FUNCTION real linearDepthFactor(real depth) {
+    real series = real(1.0) + depth * (real(0.5) + depth * real(0.33333333));
+    real through = max(real(1.0) - depth, real(1e-30));
+    return select(depth > real(1e-3), -log(through) / max(depth, real(1e-3)), series);
+}

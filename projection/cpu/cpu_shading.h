@@ -61,15 +61,14 @@ HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& b
             depth = silhouetteDepth(real(0.0f), depth, cosine);
         }
     }
-    if (shading.gradientOpacity > 0) {  // Equation 18
-        const real factor = real(shading.gradientOpacity) * magnitude;
-        depth = depth * factor;
-        plainDepth = plainDepth * factor;
-    }
+    real factor(1.0f);
+    if (shading.gradientOpacity > 0) factor = real(shading.gradientOpacity) * magnitude;  // Equation 18
+    if (frame.classification == Classification::PostLinear) factor = factor * linearDepthFactor(factor * plainDepth);
+    depth = depth * factor;
+    plainDepth = plainDepth * factor;
     real opacity = opacityOfDepth(depth);
     if (shading.approximateSilhouette && batch.gradient[j] > 0)
         opacity = approximateSilhouetteOpacity(opacityOfDepth(plainDepth), plainDepth, depth);
-    if (frame.classification == Classification::PostLinear) opacity = linearOpacity(depth);
     if (!shading.lit()) return {mean.x, mean.y, mean.z, opacity, depth};
 
     real side = select(fall > real(0.0f), real(1.0f), select(fall < real(0.0f), real(-1.0f), real(0.0f)));

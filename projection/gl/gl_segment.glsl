@@ -67,15 +67,18 @@ vec4 shadedSegment(float front, float back, float len, float fallSide, vec3 view
     depth = gradient.w > 0.0 ? sharpened : depth;
 #endif
 #if TETRALUX_GRADIENT_OPACITY
-    depth *= gradientOpacity * gradient.w;  // Kraus 2005, Equation 18
-    plain *= gradientOpacity * gradient.w;
+    float byGradient = gradientOpacity * gradient.w;  // Kraus 2005, Equation 18
+    depth *= byGradient;
+    plain *= byGradient;
+#endif
+#if TETRALUX_LINEAR_OPACITY
+    float linearFactor = linearDepthFactor(plain);
+    depth *= linearFactor;
+    plain *= linearFactor;
 #endif
     float opacity = opacityOf(depth);
 #if TETRALUX_APPROXIMATE_SILHOUETTE
     if (gradient.w > 0.0) opacity = approximateSilhouetteOpacity(opacityOf(plain), plain, depth);
-#endif
-#if TETRALUX_LINEAR_OPACITY
-    opacity = linearOpacity(depth);
 #endif
     vec3 color = segment.meanColor;
 #if TETRALUX_LIGHTS

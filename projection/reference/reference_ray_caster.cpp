@@ -287,7 +287,7 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
     const glm::dvec3 middle = ray.origin + (0.5 * segment.tIn + 0.5 * segment.tOut) * ray.direction;
     const auto [unlitColor, plainDepth, smooth] = unshadedSegment(exact, scene, segment, middle);
     const bool hides = !addsUp(scene.settings.mode);
-    const bool linear = scene.settings.classification == Classification::PostLinear;
+    double factor = 1.0;
     glm::dvec3 meanColor = unlitColor;
     double depth = plainDepth, plain = plainDepth;
 
@@ -309,14 +309,17 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
     }
     if (shading.gradientOpacity > 0) {  // Kraus 2005, Equation 18, with |g| in ranges per diagonal
         const SceneUnits units = sceneUnits(*scene.mesh);
-        const double factor = shading.gradientOpacity * magnitude * units.length / units.scalarScale;
-        depth = depth > 0 ? depth * factor : 0.0;
-        plain = plain > 0 ? plain * factor : 0.0;
+        factor = shading.gradientOpacity * magnitude * units.length / units.scalarScale;
     }
+    if (scene.settings.classification == Classification::PostLinear) {  // Equation 11: the depth whose α is min(1, τ·P)
+        const double linear = factor * plain;
+        factor = linear > 1e-12 ? -std::log1p(-std::min(linear, 1.0)) / plain : factor;
+    }
+    depth = depth > 0 && factor > 0 ? depth * factor : 0.0;
+    plain = plain > 0 && factor > 0 ? plain * factor : 0.0;
     double opacity = -std::expm1(-depth);
     if (shading.silhouette && shading.approximateSilhouette && slope.any())
         opacity = glsl::approximateSilhouetteOpacity(-std::expm1(-plain), std::min(plain, 1e30), std::min(depth, 1e60));
-    if (linear) opacity = glsl::linearOpacity(depth);
     const double weight = hides ? opacity : depth;
     const double fromEye = 0.5 * segment.tIn + 0.5 * segment.tOut;
     if (!shading.lit()) return {colorAtDepth(shading, depths, fromEye, meanColor) * weight, opacity, depth};

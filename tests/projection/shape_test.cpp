@@ -182,6 +182,38 @@ TEST(Silhouettes, ApproximateIsOpacityTimesK) {
     EXPECT_GT(met, 100);
 }
 
+// Equation 11 under Equations 15 and 16: the opacity that is enhanced is min(1, τ·P), 1 − exp(−τ·P) in no case.
+TEST(Silhouettes, OfLinearSamplesEnhanceTheirOpacity) {
+    Scene scene = sceneOf(unitTetrahedron({0.0, 1.0, 0.3, 0.7}), smoothFunction(0, 1, 1.5));
+    const Camera camera = cameraAt({1.3, 1.1, 1.6}, glm::dvec3(0.25), 21, 19);
+    const glm::dvec3 gradient(1.0, 0.3, 0.7);
+    scene.settings.classification = Classification::PostLinear;
+    scene.settings.shading.silhouette = true;
+    for (const Mode mode : {Mode::Standard, Mode::ScaleInvariant})
+        for (const bool approximate : {false, true})
+            for (const auto& options : everyEngine) {
+                scene.settings.mode = mode;
+                scene.settings.shading.approximateSilhouette = approximate;
+                const Image image = pictureOf(scene, camera, options);
+                const ReferenceRayCaster caster(scene);
+                int met = 0;
+                for (int y = 0; y < camera.height; ++y)
+                    for (int x = 0; x < camera.width; ++x) {
+                        const auto segments = caster.segmentsAt(camera, x, y);
+                        if (segments.empty()) continue;
+                        ++met;
+                        const auto& s = segments.front();
+                        const double tau = scene.transferFunction.extinctionAt(0.5 * (s.scalarIn + s.scalarOut));
+                        const double rise = std::abs(s.scalarOut - s.scalarIn), length = s.tOut - s.tIn;
+                        const double alpha = std::min(1.0, tau * (mode == Mode::Standard ? length : rise));
+                        const double k = glm::length(gradient) * length / rise;
+                        const double wanted = approximate ? std::min(1.0, alpha * k) : 1.0 - std::pow(1.0 - alpha, k);
+                        ASSERT_NEAR(image.at(x, y).w, wanted, 1e-5) << options.engine << approximate;
+                    }
+                EXPECT_GT(met, 50);
+            }
+}
+
 // Equation 18 on a plane field: depth times |g|, which is 1 range per diagonal here but for the diagonal's √3.
 TEST(GradientOpacity, MultipliesDepthByTheMagnitude) {
     Scene scene = sceneOf(boxMesh(3, [](const glm::dvec3& p) { return p.z; }), constantFunction(0.7));

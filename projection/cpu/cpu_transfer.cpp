@@ -31,6 +31,17 @@ Value lineAt(const std::vector<Node>& nodes, Value Node::*value, double inside, 
     return (1.0 - t) * ((*below).*value) + t * ((*above).*value);
 }
 
+/// A scalar below the end `s` of the field's range, or above it, and no farther than the next node.
+double besideEnd(const preint::TransferFunction& function, double s, bool below) {
+    double next = below ? s - 1.0 : s + 1.0;
+    const auto meet = [&](double node) {
+        if (below ? node < s : node > s) next = below ? std::max(next, node) : std::min(next, node);
+    };
+    for (const auto& node : function.color) meet(node.scalar);
+    for (const auto& node : function.extinction) meet(node.scalar);
+    return 0.5 * (s + next);
+}
+
 bool isFine(const TransferPiece& piece, double width) {
     return std::all_of(std::begin(piece.colorSlope), std::end(piece.colorSlope),
                        [&](float slope) { return std::abs(slope) * width <= largestFineChange; });
@@ -182,8 +193,8 @@ void CpuTransfer::addPiece(const preint::TransferFunction& function, double low,
     // beyond the field's range nothing is asked for
     const double finiteLow = std::isinf(low) ? std::min(0.0, high) : low;
     const double finiteHigh = std::isinf(high) ? std::max(1.0, low) : high;
-    double inside = 0.5 * (finiteLow + finiteHigh);
-    if (finiteLow == finiteHigh) inside = std::isinf(low) ? high - 1.0 : low + 1.0;
+    const double inside =
+        finiteLow < finiteHigh ? 0.5 * (finiteLow + finiteHigh) : besideEnd(function, finiteLow, std::isinf(low));
     const double width = finiteHigh - finiteLow;
     const auto extinction = [&](double s) {
         return function.extinction.empty()

@@ -17,6 +17,7 @@
 #include <preint/transfer_function.h>
 #include <projection/frame/engine_registry.h>
 #include <projection/gl/gl_path.h>
+#include <projection/frame/verification.h>
 
 namespace tetralux::apps {
 
@@ -126,7 +127,8 @@ void addOutputOptions(CLI::App& command, RenderOptions& options) {
         ->expected(0, 1)
         ->default_str(std::to_string(usualVerifiedPixels));
     addNumber<double>(command, "--max-error", options.maxError, notNegative, "a number from 0",
-                      "end with status 3 when the rmse may be larger (95 % bound of --verify)");
+                      "end with status 3 unless the rmse of all pixels is vouched for (95 % bound of --verify; without "
+                      "it, as many pixels are computed again as that takes: nearly all)");
     command.add_option("--report", options.report, "JSON file with cells, times and memory");
     command.add_flag("--quiet", options.quiet, "nothing on standard output, no progress bar");
 }
@@ -152,7 +154,11 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
         add(command, options);
     }
     command.parse_complete_callback([&options] {
-        if (options.maxError && options.verifiedPixels == 0) options.verifiedPixels = usualVerifiedPixels;
+        if (options.maxError && options.verifiedPixels == 0) {
+            const auto pixels = static_cast<std::size_t>(options.size.x) * static_cast<std::size_t>(options.size.y);
+            const std::size_t needed = projection::pixelsToVouchFor(*options.maxError, pixels);
+            options.verifiedPixels = std::max(static_cast<int>(needed), usualVerifiedPixels);
+        }
     });
 }
 

@@ -14,18 +14,25 @@ namespace tetralux::projection {
 
 /// Differences in linear premultiplied RGBA, over all four channels.
 struct Verification {
-    std::size_t pixels = 0;  ///< how many were computed again
-    double rmse = 0.0;       ///< estimate for the whole image
-    /// 95 % upper confidence bound of rmse. Errors of pictures have long tails, of which a sample may miss the end: the
-    /// normal bound of the mean of squared errors holds in 56 to 92 of 100 samples only. So three pixels in as many as
-    /// were sampled (the rule of three) are taken to be three times as wrong as the worst that was seen. That held in
-    /// 96 of 100 samples of 1000 pixels and more, on smooth pictures, isosurfaces, first hits and cells in a wrong
-    /// order. A single wrong pixel that no sample meets is not in it: `unseenShare` says how many there may be.
+    std::size_t pixels = 0;     ///< how many were computed again
+    std::size_t allPixels = 0;  ///< how many there are
+    double rmse = 0.0;          ///< of the pixels seen
+    double max = 0.0;           ///< largest difference seen
+    /// With 95 % confidence no more pixels of those not seen differ by more than `max` (hypergeometric: where one more
+    /// did, 19 samples of 20 would have met one; about 3/pixels of all, 0 once 95 % are seen).
+    std::size_t unseenWorse = 0;
+    /// What a channel of these may differ by: 1, or the picture's largest value where that is more.
+    double largest = 1.0;
+    /// 95 % bound of the whole picture's rmse, whatever the distribution of errors: `unseenWorse` pixels differ by
+    /// `largest`, the other ones not seen by `max`.
     double rmseBound = 0.0;
-    double max = 0.0;  ///< largest difference found
-    /// With 95 % confidence at most this share of all pixels differs by more than `max` (rule of three).
-    double unseenShare = 0.0;
+
+    std::size_t unseen() const { return allPixels - pixels; }
+    double unseenShare() const;  ///< unseenWorse of all
 };
+
+/// How many of `allPixels` have to be computed again, and found right, for a bound of the rmse within `maxError`.
+std::size_t pixelsToVouchFor(double maxError, std::size_t allPixels, double largest = 1.0);
 
 /// Compares `image`, made of `scene` in `view` (with the maps it was drawn with) without background, with the reference
 /// in `samples` different pixels chosen at random from `seed`; in all pixels when there are no more than that. \throws

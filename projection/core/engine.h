@@ -37,10 +37,9 @@ struct FrameReport {
     std::vector<std::uint32_t> doubtfulPixels;
     bool samplesBeside = false;        ///< by EdgeOnPlanes::widely, so that outlines within that are doubtful too
     std::uint64_t pixelsRepaired = 0;  ///< composed by the reference
-    /// Doubtful pixels that were not repaired: 0 but for OrderMethod::Centroid. An engine that cannot tell which they
-    /// are (gl, whose only proof is the order) says so by `wrongUnknown`.
+    /// Doubtful pixels that were not repaired: 0 but for OrderMethod::Centroid. cpu tells those in which it sees cells
+    /// out of order, gl those in which two that follow one another may be, which are more.
     std::uint64_t pixelsWrong = 0;
-    bool wrongUnknown = false;
     std::string dataPath;  ///< gl: "stream", "resident" or "tiles" (gl_path.h), and why
     std::string dataPathReason;
     std::uint64_t bytesUploaded = 0;        ///< gl: what the frame sent to the renderer for its cells and their order
@@ -57,6 +56,8 @@ public:
     virtual std::map<std::string, double> prepareMilliseconds() const { return {}; }
     /// The table that look-ups use; nullptr when the engine has none.
     virtual const preint::PreintegrationTable* table() const { return nullptr; }
+    virtual double wantedTableError() const { return 0.0; }  ///< what table() was asked for: rough functions miss it
+    virtual bool walksNodes() const { return false; }  ///< along the transfer function's nodes then, in table()'s stead
 };
 
 struct EngineOptions {

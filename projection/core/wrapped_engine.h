@@ -19,6 +19,8 @@ public:
     std::string renderer() const override { return engine_->renderer(); }
     std::map<std::string, double> prepareMilliseconds() const override { return engine_->prepareMilliseconds(); }
     const preint::PreintegrationTable* table() const override { return engine_->table(); }
+    double wantedTableError() const override { return engine_->wantedTableError(); }
+    bool walksNodes() const override { return engine_->walksNodes(); }
 
 protected:
     std::unique_ptr<Engine> engine_;

@@ -37,6 +37,7 @@ target_sources(tetralux_projection PRIVATE
   gl/gl_resolve.cpp
   gl/gl_sampler_probe.cpp
   gl/gl_tiles.cpp
+  gl/gl_walk.cpp
   gl/osmesa_context.cpp
   gl/shared_library.cpp
 )
@@ -81,6 +82,7 @@ tetralux_embed_shaders(tetralux_projection FILES
   projection/gl/gl_tile_plan.comp
   projection/gl/gl_tile_ranges.comp
   projection/gl/gl_variants.glsl
+  projection/gl/gl_walk.glsl
   shading/cell_shading.glsl
   shading/light_model.glsl
   shading/silhouette.glsl

@@ -44,7 +44,6 @@ void GlCellOrder::findVisible(const Scene& scene) {
 void GlCellOrder::describe(FrameReport& report) const {
     report.orderMethod = sorter_ ? sorter_->method() : "none";
     if (!sorter_) return;
-    report.wrongUnknown = report.orderMethod == "centroid";
     report.failingFaces = sorter_->failingFaces();
     report.orderUpkeep = "sorted";
 }
@@ -129,6 +128,10 @@ const std::vector<mesh::CellIndex>& GlCellOrder::drawnCells(const CellProjector&
         if (!timed([&] { return sortDrawn(projector); })) select(projector, timed(wholeOrder), report);
     }
     return drawn_;
+}
+
+void GlCellOrder::tellDisorder(const CellProjector& projector, FrameReport& report) {
+    if (sorter_ && sorter_->method() == "centroid") report.doubtfulPixels = sorter_->pixelsOutOfOrder(projector);
 }
 
 }  // namespace tetralux::projection

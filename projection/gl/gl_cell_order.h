@@ -49,6 +49,9 @@ public:
     /// What a report says of the order, whoever made it.
     void describe(FrameReport& report) const;
 
+    /// Of an order by centroids: the pixels that it may spoil are doubtful.
+    void tellDisorder(const CellProjector& projector, FrameReport& report);
+
 private:
     void findVisible(const Scene& scene);
     void select(const CellProjector& projector, std::span<const mesh::CellIndex> candidates, FrameReport& report);

@@ -66,7 +66,8 @@ std::string vectorLiterals(const std::vector<Vector>& vectors) {
 }
 
 GlDefines variant(const RenderSettings& settings, const shading::VertexLight& vertexLight, std::size_t supports,
-                  const preint::PreintegrationTable* table, GlFrameKind kind, bool linearSampler) {
+                  const preint::PreintegrationTable* table, const WalkedPieces* walked, GlFrameKind kind,
+                  bool linearSampler) {
     const auto& shading = settings.shading;
     const bool looksUp = table != nullptr;
     const bool dataSpace = integralOf(settings.mode) == preint::Integral::ScaleInvariant;
@@ -120,25 +121,29 @@ GlDefines variant(const RenderSettings& settings, const shading::VertexLight& ve
     defines.set("TETRALUX_TABLE_LENGTH_MAX", table->lengthMax);
     defines.set("TETRALUX_TABLE_LENGTH_SCALE", table->lengthScale);
     defines.set("TETRALUX_LINEAR_SAMPLER", linearSampler);
+    if (walked != nullptr) defines.set("TETRALUX_WALK", walked->count());
     return defines;
 }
 
-std::vector<std::string_view> pixelFiles(bool looksUp) {
+std::vector<std::string_view> pixelFiles(bool looksUp, bool walks) {
     std::vector<std::string_view> files{"preint/glsl_prelude.glsl",          "projection/gl/gl_precision.glsl",
                                         "projection/gl/gl_variants.glsl",    "projection/cells/cell_interval.glsl",
                                         "projection/gl/gl_cell_record.glsl", "shading/light_model.glsl",
                                         "projection/gl/gl_light.glsl"};
     if (looksUp) {
-        files.insert(files.end(), {"projection/gl/gl_table.glsl", "preint/table_lookup.glsl",
-                                   "preint/gather_segment.glsl", "shading/cell_shading.glsl", "shading/silhouette.glsl",
+        if (walks)
+            files.emplace_back("projection/gl/gl_walk.glsl");
+        else
+            files.insert(files.end(), {"projection/gl/gl_table.glsl", "preint/table_lookup.glsl"});
+        files.insert(files.end(), {"preint/gather_segment.glsl", "shading/cell_shading.glsl", "shading/silhouette.glsl",
                                    "projection/gl/gl_modes.glsl", "projection/gl/gl_segment.glsl"});
     }
     files.emplace_back("projection/gl/gl_cell_pixel.glsl");
     return files;
 }
 
-std::vector<GlShaderSource> shaders(bool looksUp, bool tiles) {
-    std::vector<std::string_view> files = pixelFiles(looksUp);
+std::vector<GlShaderSource> shaders(bool looksUp, bool walks, bool tiles) {
+    std::vector<std::string_view> files = pixelFiles(looksUp, walks);
     if (tiles) {
         files.insert(files.begin(), "projection/gl/gl_compute.glsl");
         files.insert(files.end(), {"projection/gl/gl_tile_outline.glsl", "projection/gl/gl_tile_draw.comp"});
@@ -166,23 +171,30 @@ bool modeLooksUp(Mode mode) {
 
 GlTableTexture::GlTableTexture(const GlFunctions& gl, const preint::PreintegrationTable& table)
     : gl_(gl), target_(table.integral == preint::Integral::ScaleInvariant ? GL_TEXTURE_2D : GL_TEXTURE_3D) {
-    const GLsizei columns = table.size, rows = static_cast<GLsizei>(table.zones.size()) * table.size;
+    make(table.size, static_cast<GLsizei>(table.zones.size()) * table.size, table.slices, table.texels);
+}
+
+GlTableTexture::GlTableTexture(const GlFunctions& gl, const WalkedPieces& pieces) : gl_(gl), target_(GL_TEXTURE_2D) {
+    make(pieces.count(), 3, 1, pieces.texels);
+}
+
+void GlTableTexture::make(GLsizei columns, GLsizei rows, GLsizei slices, const std::vector<glm::vec4>& texels) {
     GLint largest = 0;
     gl_.GetIntegerv(target_ == GL_TEXTURE_2D ? GL_MAX_TEXTURE_SIZE : GL_MAX_3D_TEXTURE_SIZE, &largest);
-    if (std::max({columns, rows, static_cast<GLsizei>(table.slices)}) > largest) {
+    if (std::max({columns, rows, slices}) > largest) {
         throw std::runtime_error(
             fmt::format("pre-integration table of {} x {} x {} texels: this OpenGL renderer takes {} along an "
                         "axis; allow a larger table error",
-                        columns, rows, table.slices, largest));
+                        columns, rows, slices, largest));
     }
     gl_.GenTextures(1, &texture_);
     gl_.BindTexture(target_, texture_);
     if (target_ == GL_TEXTURE_2D) {
         gl_.TexStorage2D(target_, 1, GL_RGBA32F, columns, rows);
-        gl_.TexSubImage2D(target_, 0, 0, 0, columns, rows, GL_RGBA, GL_FLOAT, table.texels.data());
+        gl_.TexSubImage2D(target_, 0, 0, 0, columns, rows, GL_RGBA, GL_FLOAT, texels.data());
     } else {
-        gl_.TexStorage3D(target_, 1, GL_RGBA32F, columns, rows, table.slices);
-        gl_.TexSubImage3D(target_, 0, 0, 0, 0, columns, rows, table.slices, GL_RGBA, GL_FLOAT, table.texels.data());
+        gl_.TexStorage3D(target_, 1, GL_RGBA32F, columns, rows, slices);
+        gl_.TexSubImage3D(target_, 0, 0, 0, 0, columns, rows, slices, GL_RGBA, GL_FLOAT, texels.data());
     }
     for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
         gl_.TexParameteri(target_, axis, GL_CLAMP_TO_EDGE);
@@ -226,13 +238,14 @@ void GlVertexLight::bind(GLuint unit) const {
 
 GlCellProgram::GlCellProgram(const GlFunctions& gl, const RenderSettings& settings,
                              const shading::VertexLight& vertexLight, const preint::TransferFunction& function,
-                             const preint::PreintegrationTable* table, GlFrameKind kind, bool linearSampler)
+                             const preint::PreintegrationTable* table, const WalkedPieces* walked, GlFrameKind kind,
+                             bool linearSampler)
     : gl_(gl),
       program_(gl,
-               withTileConstants(
-                   variant(settings, vertexLight, extinctionSupport(function).size(), table, kind, linearSampler),
-                   kind.tiles),
-               shaders(table != nullptr, kind.tiles)),
+               withTileConstants(variant(settings, vertexLight, extinctionSupport(function).size(), table, walked, kind,
+                                         linearSampler),
+                                 kind.tiles),
+               shaders(table != nullptr, walked != nullptr, kind.tiles)),
       ndcPerPixel_(program_.uniform("ndcPerPixel")),
       centre_(program_.uniform("centre")),
       viewForward_(program_.uniform("viewForward")),
@@ -242,12 +255,12 @@ GlCellProgram::GlCellProgram(const GlFunctions& gl, const RenderSettings& settin
       lightPlace_(program_.uniform("lightPlace")),
       lightFade_(program_.uniform("lightFade")) {
     program_.use();
-    setConstants(settings, extinctionSupport(function), table);
+    setConstants(settings, extinctionSupport(function), table, walked);
     checkGl(gl_, "shader constants");
 }
 
 void GlCellProgram::setConstants(const RenderSettings& settings, const std::vector<glm::dvec2>& support,
-                                 const preint::PreintegrationTable* table) const {
+                                 const preint::PreintegrationTable* table, const WalkedPieces* walked) const {
     std::vector<glm::vec2> supportFloats(support.begin(), support.end());
     for (glm::vec2& interval : supportFloats) interval = glm::clamp(interval, -3e38f, 3e38f);
     gl_.Uniform2fv(program_.uniform("support"), static_cast<GLsizei>(supportFloats.size()),
@@ -287,6 +300,9 @@ void GlCellProgram::setConstants(const RenderSettings& settings, const std::vect
     gl_.Uniform1fv(program_.uniform("interfaceValue"), count, values.data());
     gl_.Uniform4fv(program_.uniform("interfaceLayer"), count, reinterpret_cast<const float*>(layers.data()));
     gl_.Uniform1iv(program_.uniform("zoneAfter"), count + 1, zoneAfter.data());
+    if (walked != nullptr)
+        gl_.Uniform1iv(program_.uniform("zonePiece"), static_cast<GLsizei>(walked->zonePiece.size()),
+                       walked->zonePiece.data());
 }
 
 void GlCellProgram::setLightModel(const shading::ShadingSettings& shading) const {

@@ -11,6 +11,7 @@
 #include <projection/core/camera.h>
 #include <projection/core/scene.h>
 #include <projection/gl/gl_program.h>
+#include <projection/gl/gl_walk.h>
 #include <projection/light/light_frame.h>
 
 namespace tetralux::projection {
@@ -33,6 +34,8 @@ class GlTableTexture {
 public:
     /// \throws std::runtime_error when the renderer has no texture of that size.
     GlTableTexture(const GlFunctions& gl, const preint::PreintegrationTable& table);
+    /// What stands in for it.
+    GlTableTexture(const GlFunctions& gl, const WalkedPieces& pieces);
     ~GlTableTexture() { gl_.DeleteTextures(1, &texture_); }
     GlTableTexture(const GlTableTexture&) = delete;
     GlTableTexture& operator=(const GlTableTexture&) = delete;
@@ -40,6 +43,8 @@ public:
     void bind(GLuint unit) const;
 
 private:
+    void make(GLsizei columns, GLsizei rows, GLsizei slices, const std::vector<glm::vec4>& texels);
+
     const GlFunctions& gl_;
     GLenum target_;
     GLuint texture_ = 0;
@@ -63,11 +68,11 @@ private:
 
 class GlCellProgram {
 public:
-    /// `function` and `table` in scene units; `table` may be null for modes without. `linearSampler`: the texture
-    /// unit interpolates (gl_sampler_probe.h), else the shader does.
+    /// `function` and `table` in scene units; `table` may be null for modes without. `walked`: what is walked along in
+    /// its stead, or null. `linearSampler`: the texture unit interpolates (gl_sampler_probe.h), else the shader does.
     GlCellProgram(const GlFunctions& gl, const RenderSettings& settings, const shading::VertexLight& vertexLight,
-                  const preint::TransferFunction& function, const preint::PreintegrationTable* table, GlFrameKind kind,
-                  bool linearSampler);
+                  const preint::TransferFunction& function, const preint::PreintegrationTable* table,
+                  const WalkedPieces* walked, GlFrameKind kind, bool linearSampler);
 
     /// Makes it current for drawing from that camera.
     void use(const CameraFrame& frame, double depthReference) const;
@@ -87,7 +92,7 @@ public:
 
 private:
     void setConstants(const RenderSettings& settings, const std::vector<glm::dvec2>& support,
-                      const preint::PreintegrationTable* table) const;
+                      const preint::PreintegrationTable* table, const WalkedPieces* walked) const;
 
     void setLightModel(const shading::ShadingSettings& shading) const;
 

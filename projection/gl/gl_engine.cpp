@@ -30,6 +30,7 @@
 #include <projection/gl/gl_resolve.h>
 #include <projection/gl/gl_sampler_probe.h>
 #include <projection/gl/gl_tiles.h>
+#include <projection/gl/gl_walk.h>
 #include <glm/geometric.hpp>
 
 namespace tetralux::projection {
@@ -92,13 +93,27 @@ double longestEdge(const mesh::ScalarMesh& mesh, const SceneUnits& units) {
 /// A mean colour shows once in a pixel, other errors of a table as often as there are cells along a ray.
 constexpr double ofMeanColors = 5.0;
 
+/// Silhouettes multiply depth by k, and a table's error with it.
+constexpr double ofSilhouettes = 0.25;
+
+double wantedErrorOf(const Scene& scene) {
+    const double ofMode = scene.settings.mode == Mode::FirstHit ? ofMeanColors : 1.0;
+    return scene.settings.table.wantedError * ofMode * (scene.settings.shading.silhouette ? ofSilhouettes : 1.0);
+}
+
+/// Samples ask for colour and extinction at one scalar: there is nothing to integrate.
+bool takesSamples(const Scene& scene) {
+    return scene.settings.classification != Classification::Preintegrated;
+}
+
 preint::PreintegrationTable buildTable(const Scene& scene, const preint::TransferFunction& function,
                                        const SceneUnits& units) {
     const preint::ExactIntegral exact(function);
     preint::TableOptions options = scene.settings.table;
     options.meanColors = scene.settings.mode == Mode::FirstHit;
     options.evenTexelsFirst = !options.meanColors;
-    if (options.meanColors) options.wantedError *= ofMeanColors;
+    options.wantedError = wantedErrorOf(scene);
+    if (takesSamples(scene)) options.size = 2;  // only its zones are asked for
     const double largestScale = scene.settings.largestExtinctionScale;
     if (integralOf(scene.settings.mode) == preint::Integral::ScaleInvariant) {
         const bool adds = addsUp(scene.settings.mode);
@@ -124,6 +139,8 @@ public:
                            mode() != Mode::DataContribution && scene.settings.shading.needsGradient();
         if (modeLooksUp(mode())) {
             table_ = buildTable(scene, function_, units_);
+            const bool misses = table_->measuredError > wantedTableError() && scene.settings.table.size == 0;
+            if (misses || takesSamples(scene)) walked_ = walkedPieces(function_, *table_);
             prepare_["table"] = watch.lap();
             const auto& shading = scene.settings.shading;
             fullLight_ = shading.lit() && !shading.plain();
@@ -153,7 +170,11 @@ public:
     std::string name() const override { return "gl"; }
     std::string renderer() const override { return state_->renderer; }
     std::map<std::string, double> prepareMilliseconds() const override { return prepare_; }
-    const preint::PreintegrationTable* table() const override { return table_ ? &*table_ : nullptr; }
+    const preint::PreintegrationTable* table() const override {
+        return table_ && !takesSamples(scene_) ? &*table_ : nullptr;
+    }
+    double wantedTableError() const override { return wantedErrorOf(scene_); }
+    bool walksNodes() const override { return walked_.has_value(); }
 
 private:
     Mode mode() const { return scene_.settings.mode; }
@@ -189,6 +210,7 @@ private:
     EdgeOnPlanes edgeOnPlanes_;
     preint::TransferFunction function_;  // scene units
     std::optional<preint::PreintegrationTable> table_;
+    std::optional<WalkedPieces> walked_;  // in the table's stead, where that misses its error
     std::optional<GlCellOrder> order_;
     std::vector<CameraPoint> points_;
     GlCellLayout layout_;
@@ -208,7 +230,10 @@ void GlEngine::makeState() {
     state_->fragments.emplace(gl);
     state_->stream.emplace(gl, layout_);
     if (table_) {
-        state_->table.emplace(gl, *table_);
+        if (walked_)
+            state_->table.emplace(gl, *walked_);
+        else
+            state_->table.emplace(gl, *table_);
         state_->linearSampler = linearSamplerIsExact(gl);
         if (layout_.attributes) state_->vertexLight.emplace(gl, *vertexLight_);
     }
@@ -241,7 +266,8 @@ GlDrawing GlEngine::wayOfFrame(const CameraFrame& frame) {
 const GlCellProgram& GlEngine::program(GlFrameKind kind) {
     auto& made = state_->programs[(kind.orthographic ? 1u : 0u) + (kind.limited ? 2u : 0u) + (kind.tiles ? 4u : 0u)];
     if (!made) {
-        made = std::make_unique<GlCellProgram>(*state_->gl, scene_.settings, *vertexLight_, function_, table(), kind,
+        made = std::make_unique<GlCellProgram>(*state_->gl, scene_.settings, *vertexLight_, function_,
+                                               table_ ? &*table_ : nullptr, walked_ ? &*walked_ : nullptr, kind,
                                                state_->linearSampler);
     }
     return *made;
@@ -448,6 +474,8 @@ Image GlEngine::render(const View& view, FrameReport& report) {
     resolveOrderFree(image, scene_, view.camera, units_);
     stages["read back"] = watch.lap();
     report.frameMilliseconds = whole.lap();
+    if (scene_.settings.order == OrderMethod::Centroid)  // to be measured, and not part of what it takes
+        order_->tellDisorder(CellProjector(*scene_.mesh, units_, frame), report);
     return image;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -32,6 +33,17 @@ struct VisibilitySorter::State {
     std::optional<CameraFrame> lastFrame;
 
     void findOrder(const CellProjector& projector);
+    void seeGaps(const CellProjector& projector);
+
+    /// Which cells share faces, and where rays may enter again; true where they may not.
+    bool connect() {
+        adjacency = mesh::buildAdjacency(mesh.cells, mesh.positions.size());
+        boundary = boundaryFaces(mesh, adjacency);
+        const bool convex =
+            adjacency.nonManifoldFaces == 0 && adjacency.foldedFaces == 0 && boundaryIsConvex(mesh, boundary);
+        if (convex) boundary = {};
+        return convex;
+    }
 
     State(const mesh::ScalarMesh& m, OrderMethod wanted, Use use) : mesh(m) {
         if (wanted == OrderMethod::Centroid) {
@@ -39,12 +51,8 @@ struct VisibilitySorter::State {
             keys = OrderKeys::centroid(mesh);
             return;
         }
-        adjacency = mesh::buildAdjacency(m.cells, m.positions.size());
-        boundary = boundaryFaces(mesh, adjacency);
-        const bool convex =
-            adjacency.nonManifoldFaces == 0 && adjacency.foldedFaces == 0 && boundaryIsConvex(mesh, boundary);
+        const bool convex = connect();
         method = convex ? "mpvo" : "mpvo+reentry";
-        if (convex) boundary = {};
         if (convex && wanted != OrderMethod::Graph) {
             const PowerOrder power(mesh, adjacency);
             failingFaces = power.failingFaces();
@@ -162,17 +170,20 @@ bool sameView(const CameraFrame& a, const CameraFrame& b) {
 
 }  // namespace
 
+void VisibilitySorter::State::seeGaps(const CellProjector& projector) {
+    last.doubtfulPixels.clear();
+    if (boundary.empty()) return;
+    Reentry reentry = findReentry(mesh, boundary, projector.frame(), projector.points());
+    last.doubtfulPixels = std::move(reentry.doubtfulPixels);
+    relations.setGaps(std::move(reentry.edges));
+}
+
 /// The order by keys, by the last frame's order repaired, or by the relations alone: the first that keeps every
 /// relation. Which pixels a cycle leaves in doubt is told by the relations that the order breaks.
 void VisibilitySorter::State::findOrder(const CellProjector& projector) {
     const CameraFrame& frame = projector.frame();
     relations.see(projector);
-    last.doubtfulPixels.clear();
-    if (!boundary.empty()) {
-        Reentry reentry = findReentry(mesh, boundary, frame, projector.points());
-        last.doubtfulPixels = std::move(reentry.doubtfulPixels);
-        relations.setGaps(std::move(reentry.edges));
-    }
+    seeGaps(projector);
     const bool hasLast = !last.frontToBack.empty() && last.cyclicCells == 0;
     last.cyclicCells = 0;
     if (hasLast && relations.mostlyHold(last.places)) {
@@ -211,6 +222,17 @@ const VisibilityOrder& VisibilitySorter::sort(const CellProjector& projector) {
         state.last.upkeep = "kept";
     }
     return state.last;
+}
+
+std::vector<std::uint32_t> VisibilitySorter::pixelsOutOfOrder(const CellProjector& projector) {
+    State& state = *state_;
+    sort(projector);
+    if (state.adjacency.neighbours.empty()) state.connect();
+    state.relations.see(projector);
+    state.seeGaps(projector);
+    std::vector<std::uint32_t> pixels = std::exchange(state.last.doubtfulPixels, {});
+    doubtPairs(state.relations.violations(state.last.places), projector, projector.frame(), pixels);
+    return pixels;
 }
 
 }  // namespace tetralux::projection

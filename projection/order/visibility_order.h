@@ -56,6 +56,10 @@ public:
     const VisibilityOrder& sort(const CellProjector& projector);
     const VisibilityOrder& sort(const CameraFrame& frame);
 
+    /// Of an order by centroids, to tell what it spoils: the pixels in which two cells that follow one another along a
+    /// ray may stand the wrong way round, a superset of those that do; ascending.
+    std::vector<std::uint32_t> pixelsOutOfOrder(const CellProjector& projector);
+
 private:
     struct State;
     std::unique_ptr<State> state_;

@@ -64,6 +64,38 @@ void tellPreview(const std::string& path, const RenderOptions& options, const pr
                preview.kept ? "" : ": even the least takes longer here");
 }
 
+std::string verificationLine(const projection::Verification& found) {
+    const std::string seen = fmt::format("error against the reference: rmse {:.2g}, max {:.2g} in {} of {} pixels",
+                                         found.rmse, found.max, found.pixels, found.allPixels);
+    if (found.unseen() == 0) return seen;
+    return fmt::format("{}; {} were not seen, of which at most {} differ by more (95 % sure: rmse not above {:.2g})",
+                       seen, found.unseen(), found.unseenWorse, found.rmseBound);
+}
+
+/// On standard error, --quiet or not: the table is less exact than was asked for, and what comes of it.
+void warnOfTable(const projection::Engine& engine) {
+    const preint::PreintegrationTable* table = engine.table();
+    if (table == nullptr || table->measuredError <= engine.wantedTableError()) return;
+    fmt::print(stderr, "tetralux: --table-error {:g}: a table of this transfer function has an error of {:.2g}; {}\n",
+               engine.wantedTableError(), table->measuredError,
+               engine.walksNodes() ? "every segment is walked along node by node instead, which takes longer"
+                                   : "leave --table-size out");
+}
+
+/// What --max-error has to say of a picture that it cannot vouch for.
+std::string errorTooLargeLine(double maxError, const projection::Verification& found) {
+    const bool seenTooLarge = !(found.rmse <= maxError);
+    const std::size_t needed = projection::pixelsToVouchFor(maxError, found.allPixels, found.largest);
+    const std::string more = seenTooLarge || found.pixels >= needed
+                                 ? "see --table-error for tables and --engine reference for the truth"
+                                 : fmt::format("{} of {} pixels were not seen: --verify {} could tell", found.unseen(),
+                                               found.allPixels, needed);
+    return fmt::format(
+        "--max-error {:g}: the rmse is {:.2g}, the largest error {:.2g} in {} pixels, and that of all may be "
+        "{:.2g} (95 % sure: not more); {}",
+        maxError, found.rmse, found.max, found.pixels, found.rmseBound, more);
+}
+
 void tell(const RenderOptions& options, const std::vector<std::string>& paths, const SceneRenderer& renderer) {
     const RenderRecord& record = renderer.record();
     for (const std::string& line : defectLines(record.mesh)) fmt::print("{}: {}\n", options.source, line);
@@ -71,13 +103,7 @@ void tell(const RenderOptions& options, const std::vector<std::string>& paths, c
         fmt::print("{}: not checked whether cells overlap or do not fit together; --check does it\n", options.source);
     for (const auto& [reason, count] : record.mesh.skipped)
         if (reason.starts_with("not solid")) fmt::print("{}: left out: {} {}\n", options.source, count, reason);
-    if (record.verification)
-        fmt::print(
-            "error against the reference: rmse {:.2g} (95 % sure: not above {:.2g}), max {:.2g} in {} pixels (95 % "
-            "sure: "
-            "above that in less than {:.2g} % of all)\n",
-            record.verification->rmse, record.verification->rmseBound, record.verification->max,
-            record.verification->pixels, 100.0 * record.verification->unseenShare);
+    if (record.verification) fmt::print("{}\n", verificationLine(*record.verification));
     const projection::FrameReport& first = record.frames.front();
     double total = 0.0;
     for (const projection::FrameReport& frame : record.frames) total += frame.frameMilliseconds;
@@ -112,13 +138,9 @@ int render(const RenderOptions& options) {
     }
     if (!options.report.empty()) projection::writeWholeFile(options.report, jsonText(renderReport(options, renderer)));
     if (!options.quiet) tell(options, paths, renderer);
+    warnOfTable(renderer.engine());
     if (withinMaxError(options, renderer.record())) return 0;
-    fmt::print(
-        stderr,
-        "tetralux: --max-error {}: the rmse is {:.2g} and may be {:.2g} (95 % sure: not more), the largest of {} "
-        "pixels' errors {:.2g}; see --table-error for tables and --engine reference for the truth\n",
-        *options.maxError, renderer.record().verification->rmse, renderer.record().verification->rmseBound,
-        renderer.record().verification->pixels, renderer.record().verification->max);
+    fmt::print(stderr, "tetralux: {}\n", errorTooLargeLine(*options.maxError, *renderer.record().verification));
     return errorTooLarge;
 }
 

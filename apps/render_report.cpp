@@ -57,8 +57,11 @@ json timesJson(const RenderRecord& record, const projection::Engine& engine) {
     return times;
 }
 
-json tableJson(const preint::PreintegrationTable& table) {
-    return {{"size", table.size},
+json tableJson(const preint::PreintegrationTable& table, const projection::Engine& engine) {
+    return {{"wanted_error", engine.wantedTableError()},
+            {"within", table.measuredError <= engine.wantedTableError()},
+            {"used", !engine.walksNodes()},
+            {"size", table.size},
             {"slices", table.slices},
             {"zones", table.zones.size()},
             {"measured_error", table.measuredError},
@@ -67,10 +70,11 @@ json tableJson(const preint::PreintegrationTable& table) {
 
 json verificationJson(const projection::Verification& found) {
     return {{"pixels", found.pixels},
+            {"unseen", found.unseen()},
             {"rmse", found.rmse},
             {"rmse_bound", found.rmseBound},
             {"max", found.max},
-            {"unseen_share", found.unseenShare}};
+            {"unseen_share", found.unseenShare()}};
 }
 
 json previewJson(const projection::Preview& preview, double promised) {
@@ -115,12 +119,10 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
     const RenderRecord& record = renderer.record();
     const projection::Engine& engine = renderer.engine();
     const FrameReport first = record.frames.empty() ? FrameReport{} : record.frames.front();
-    std::uint64_t repaired = 0;
-    json wrong = std::uint64_t{0};
+    std::uint64_t repaired = 0, wrong = 0;
     for (const FrameReport& frame : record.frames) {
         repaired += frame.pixelsRepaired;
-        if (frame.wrongUnknown) wrong = nullptr;
-        if (!wrong.is_null()) wrong = wrong.get<std::uint64_t>() + frame.pixelsWrong;
+        wrong += frame.pixelsWrong;
     }
     json report = {
         {"tetralux", TETRALUX_VERSION},
@@ -158,9 +160,12 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
     if (options.maxError) {
         report["verification"]["max_error"] = *options.maxError;
         report["verification"]["within"] = withinMaxError(options, record);
+        const projection::Verification& found = *record.verification;
+        report["verification"]["pixels_needed"] =
+            projection::pixelsToVouchFor(*options.maxError, found.allPixels, found.largest);
     }
     if (record.preview) report["preview"] = previewJson(*record.preview, options.previewMilliseconds);
-    if (const auto* table = engine.table()) report["table"] = tableJson(*table);
+    if (const auto* table = engine.table()) report["table"] = tableJson(*table, engine);
     return report;
 }
 

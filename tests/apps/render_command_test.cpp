@@ -227,6 +227,7 @@ TEST_F(RenderCommand, MaxErrorDecidesTheStatus) {
     expectGood(common + "--max-error 0.5");
     nlohmann::json found = json("r.json")["verification"];
     EXPECT_EQ(found["pixels"], 1000) << "of 1024";
+    EXPECT_EQ(found["unseen"], 24);
     EXPECT_EQ(found["within"], true);
     EXPECT_GE(found["rmse_bound"], found["rmse"]);
 
@@ -242,7 +243,38 @@ TEST_F(RenderCommand, MaxErrorDecidesTheStatus) {
     EXPECT_EQ(found["max_error"], 1e-12);
 
     expectGood("render bucky:4 -o a.exr --size 8x8 --engine reference --max-error 0.001 --verify");
+    expectGood("render bucky:4 -o a.exr --size 64x64 --engine cpu --max-error 1e-4 --report r.json");
+    EXPECT_GE(json("r.json")["verification"]["pixels"], 0.95 * 64 * 64) << "as many as it takes";
     expectRefused("render bucky:4 -o a.exr --max-error -1", {"--max-error", "a number from 0"});
+}
+
+// Twenty pixels without an error say nothing of the other thousand.
+TEST_F(RenderCommand, MaxErrorIsNotVouchedForByAFewPixels) {
+    const Outcome outcome = tetralux(
+        "render bucky:6 -o a.exr --size 32x32 --engine reference --verify 20 --max-error 1e-4 --report r.json");
+    EXPECT_EQ(outcome.status, 3);
+    for (const char* part : {"1004 of 1024 pixels were not seen", "--verify 973"})
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.out.find("1004 were not seen, of which at most"), std::string::npos) << outcome.out;
+    const nlohmann::json found = json("r.json")["verification"];
+    EXPECT_EQ(found["unseen"], 1004);
+    EXPECT_EQ(found["pixels_needed"], 973);
+    EXPECT_GT(found["rmse_bound"], 0.1);
+}
+
+TEST_F(RenderCommand, ATableThatMissesItsErrorSaysSo) {
+    const std::string common = "render bucky:6 -o a.exr --size 8x8 --engine gl --quiet --report r.json ";
+    const Outcome coarse = tetralux(common + "--table-size 4");
+    EXPECT_EQ(coarse.status, 0);
+    EXPECT_NE(coarse.err.find("--table-error 0.0001: a table"), std::string::npos) << coarse.err;
+    EXPECT_NE(coarse.err.find("--table-size"), std::string::npos) << coarse.err;
+    const nlohmann::json table = json("r.json")["table"];
+    EXPECT_EQ(table["wanted_error"], 1e-4);
+    EXPECT_EQ(table["within"], false);
+    EXPECT_GT(table["measured_error"], 1e-4);
+    const Outcome fine = tetralux(common);
+    EXPECT_EQ(fine.err, "");
+    EXPECT_EQ(json("r.json")["table"]["within"], true);
 }
 
 TEST_F(RenderCommand, OrderIsChosenForMeasuring) {

@@ -186,6 +186,7 @@ STATEMENTS = {name: mode(name) for name in MODES}
 STATEMENTS |= {"Limits": limits, "Classification": classification, "Silhouettes": silhouettes, "Equidistant isosurfaces": equidistant_isosurfaces,
                "Slices": slices, "Depth-based colouring": depth_color, "Light": light,
                "Anisotropic light": "tests/shading, tests/projection/light_test.cpp", "Surfaces": "tests/projection/opaque_layer_test.cpp",
+               "Isolines": "tests/mesh/isolines_test.cpp, tests/projection/isoline_test.cpp",
                "Shadows": "tests/projection/light_test.cpp, tests/projection/opaque_layer_test.cpp",
                "Adaptive opacity": "tests/projection/adaptive_opacity_test.cpp"}
 

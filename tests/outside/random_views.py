@@ -155,8 +155,11 @@ def random_look(rng, mode, mesh):
     look, words = Look(mode=mode), ["--mode", mode]
     choices = OPTIONS[mode]
     count = int(rng.choice([0, 1, 2, 3], p=[0.35, 0.3, 0.2, 0.15]))
-    for k in sorted(rng.permutation(len(choices))[:count]):
-        words += choices[k](rng, mesh, look)
+    chosen = [choices[k] for k in sorted(rng.permutation(len(choices))[:count])]
+    if _lights in chosen and _clip in chosen:
+        chosen.remove(_clip)  # the caster knows no layer that is lit by a cut's normal
+    for choose in chosen:
+        words += choose(rng, mesh, look)
     return look, words
 
 

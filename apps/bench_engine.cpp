@@ -140,7 +140,6 @@ void drawFrames(Engine& engine, const projection::Scene& scene, const ReferenceI
 
 projection::Scene withChoice(projection::Scene scene, const EngineChoice& choice) {
     scene.settings.threads = choice.threads;
-    scene.settings.table.threads = choice.threads;
     scene.settings.table.size = choice.tableSize;
     if (choice.tableError > 0.0) scene.settings.table.wantedError = choice.tableError;
     scene.settings.order = choice.order;

@@ -15,10 +15,10 @@
 #include <mesh/io/read_mesh.h>
 #include <mesh/tet/interface_checks.h>
 #include <mesh/tet/procedural_field.h>
-#include <mesh/tet/volume_samples.h>
 #include <preint/equidistant_isosurfaces.h>
 #include <preint/transfer_function.h>
 #include <projection/frame/engine_registry.h>
+#include <projection/frame/suggested_extinction.h>
 #include <projection/opaque/opaque_layer.h>
 
 namespace tetralux::apps {
@@ -27,17 +27,9 @@ namespace {
 
 constexpr std::uint32_t verificationSeed = 1;  // the same pixels in every run
 
-/// Without --tf: colours that stand out from black at either end, and some extinction everywhere, so that the whole
-/// mesh shows.
-preint::TransferFunction defaultTransferFunction() {
-    preint::TransferFunction function = preint::preset("cool-to-warm");
-    function.extinction = {{0.0, 0.5}, {0.15, 0.8}, {0.5, 4.0}, {1.0, 25.0}};
-    return function;
-}
-
 /// Nothing, a preset or a file; a preset's name wins over a file of that name.
 preint::TransferFunction loadTransferFunction(const std::string& name) {
-    if (name.empty()) return defaultTransferFunction();
+    if (name.empty()) return projection::defaultTransferFunction();
     const std::vector<std::string> presets = preint::presetNames();
     if (std::find(presets.begin(), presets.end(), name) != presets.end()) return preint::preset(name);
     std::error_code ignored;
@@ -47,67 +39,13 @@ preint::TransferFunction loadTransferFunction(const std::string& name) {
     return preint::readTransferFunction(name);
 }
 
-/// Mean length of a line's way through the box (four times volume over surface), scaled so that a cube has its
-/// diagonal. A thin plate or a long rod is as opaque as a cube then, where the diagonal would leave it clear.
-double thickness(const mesh::BoundingBox& box) {
-    const glm::dvec3 size = box.high - box.low;
-    const double longest = std::max({size.x, size.y, size.z});
-    const glm::dvec3 part = size / longest;
-    const double surface = part.x * part.y + part.y * part.z + part.z * part.x;
-    return surface > 0.0 ? 3.0 * std::numbers::sqrt3 * longest * part.x * part.y * part.z / surface : box.diagonal();
-}
-
-/// The scalars that the colour bar shows: the window if there is one that has a width, else the field's range.
-glm::dvec2 rangeOf(const RenderOptions& options, const mesh::ScalarMesh& mesh) {
-    if (options.window && options.window->x < options.window->y) return *options.window;
-    return {mesh.scalarMin, mesh.scalarMax};
-}
-
-/// In absolute units: over the window if there is one, else over the field's range.
-preint::TransferFunction resolvedWith(double extent, const RenderOptions& options,
-                                      const preint::TransferFunction& function, const mesh::ScalarMesh& mesh) {
-    return options.window ? preint::windowed(function, options.window->x, options.window->y, extent)
-                          : preint::resolved(function, mesh.scalarMin, mesh.scalarMax, extent);
-}
-
-/// The default function, with the extinction that shows this very mesh: where it is thin, or where most of it has low
-/// values, more than its box tells. Never less than the function's own along the mean way through a cube.
-preint::TransferFunction resolvedDefault(const RenderOptions& options, const preint::TransferFunction& function,
-                                         const mesh::ScalarMesh& mesh) {
-    constexpr double wantedOpacity = 0.6;  // of the mean way, if it had one value, on average over the volume
-    constexpr double mostAdded = 8.0;
-    const mesh::VolumeSamples samples = mesh::sampleVolume(mesh);
-    if (samples.scalars.empty() || !(samples.meanWay > 0.0))
-        return resolvedWith(thickness(mesh.bounds), options, function, mesh);
-    const double extent = std::numbers::sqrt3 * samples.meanWay;
-    const preint::TransferFunction plain = resolvedWith(extent, options, function, mesh);
-    std::vector<double> depths;
-    for (const double scalar : samples.scalars) depths.push_back(samples.meanWay * plain.extinctionAt(scalar));
-    const auto opacity = [&](double factor) {
-        double sum = 0.0;
-        for (const double depth : depths) sum -= std::expm1(-factor * depth);
-        return sum / static_cast<double>(depths.size());
-    };
-    double low = 1.0, high = mostAdded;
-    for (int halving = 0; halving < 10 && opacity(low) < wantedOpacity; ++halving) {
-        const double middle = std::sqrt(low * high);
-        (opacity(middle) < wantedOpacity ? low : high) = middle;
-    }
-    return resolvedWith(extent / low, options, function, mesh);
-}
-
-/// In absolute units: over the window if there is one, else over the field's range.
-preint::TransferFunction resolvedFor(const RenderOptions& options, const preint::TransferFunction& function,
-                                     const mesh::ScalarMesh& mesh) {
-    // what "per extent" in a transfer function means for this mode (preint::TransferFunction::extinctionPerExtent)
-    // isosurfaces have no length: what they stand for is extinction over the scalar in any mode
-    if (options.shape.isosurfaces ||
-        projection::integralOf(options.settings.mode) == preint::Integral::ScaleInvariant) {
-        const glm::dvec2 range = rangeOf(options, mesh);
-        return resolvedWith(range.y - range.x, options, function, mesh);
-    }
-    return options.transferFunction.empty() ? resolvedDefault(options, function, mesh)
-                                            : resolvedWith(thickness(mesh.bounds), options, function, mesh);
+projection::FunctionUse useOf(const RenderOptions& options) {
+    projection::FunctionUse use;
+    use.mode = options.settings.mode;
+    use.window = options.window;
+    use.perScalar = options.shape.isosurfaces.has_value();  // they have no length, whatever the mode
+    use.suggested = options.transferFunction.empty();
+    return use;
 }
 
 projection::Camera cameraFor(const RenderOptions& options, const mesh::BoundingBox& bounds) {
@@ -165,12 +103,11 @@ void SceneRenderer::readScene(const RenderOptions& options) {
     record_.scalarMax = scene_.mesh->scalarMax;
     record_.tetrahedra = scene_.mesh->cells.size();
     scene_.settings = options.settings;
-    scene_.settings.table.threads = options.settings.threads;
-    scene_.transferFunction = resolvedFor(options, transferFunction, *scene_.mesh);
+    scene_.transferFunction = projection::resolvedFor(transferFunction, *scene_.mesh, useOf(options));
     if (options.shape.isosurfaces)
         scene_.transferFunction = preint::equidistantIsosurfaces(scene_.transferFunction, *options.shape.isosurfaces,
                                                                  record_.scalarMin, record_.scalarMax);
-    const glm::dvec2 range = rangeOf(options, *scene_.mesh);
+    const glm::dvec2 range = projection::shownRange(useOf(options), *scene_.mesh);
     annotated_ = {record_.fieldName,
                   range.x,
                   range.y,

@@ -17,7 +17,6 @@
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <preint/table_error.h>
 #include <preint/table_layout.h>
@@ -276,14 +275,11 @@ PreintegrationTable build(const ExactIntegral& exact, PreintegrationTable table,
             fmt::format("table size {} is not possible; give at least 2 texels, or 0 to have it chosen", options.size));
     }
     const auto start = Clock::now();
-    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-    arena.execute([&] {
-        SizeChooser chooser(exact, options, scalarMin, scalarMax);
-        chooser.choose(table);
-        table.texels.resize(texelCount(table));
-        fill(exact, table);
-        table.measuredError = lookUpError(table, chooser.rays(), chooser.compared());
-    });
+    SizeChooser chooser(exact, options, scalarMin, scalarMax);
+    chooser.choose(table);
+    table.texels.resize(texelCount(table));
+    fill(exact, table);
+    table.measuredError = lookUpError(table, chooser.rays(), chooser.compared());
     table.buildMilliseconds = millisecondsSince(start);
     return table;
 }

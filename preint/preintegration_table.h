@@ -39,7 +39,6 @@ struct TableOptions {
     double wantedError = 1e-4;  ///< largest error of a segment's premultiplied colour and opacity at sampled segments
     int size = 0;               ///< texels per zone and scalar axis; 0: the smallest that keeps wantedError
     int lengthSlices = 0;       ///< 3D only; 0: chosen
-    int threads = 0;            ///< 0: all
     /// Try first, with up to 16 MiB, texels that lie evenly over each zone and hold extinction too: no `warp`, no
     /// `ramps`. The cheapest look-up, for engines to which arithmetic costs more than texels.
     bool evenTexelsFirst = false;

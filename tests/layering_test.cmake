@@ -7,7 +7,7 @@
 # and within them, each room including those on its left only:
 #
 #     mesh:        tet ◄── soup ◄── io
-#     projection:  image ◄── core ◄── cells ◄── { order, light ◄── reference } ◄── { cpu, gl, opaque, repair } ◄── frame
+#     projection:  image ◄── core ◄── cells ◄── { order, light ◄── reference } ◄── { cpu, gl, opaque, repair } ◄── frame ◄── renderer
 #
 # No arrow runs the other way, so no engine includes another; libraries do not print, exit or read the environment; every source names
 # its licence. -DSELF_TEST=ON makes a tree that breaks each rule once and expects every breach to be found.
@@ -22,7 +22,7 @@ set(folders mesh preint shading projection apps)
 
 # The rooms of a folder, and what each may include besides itself.
 set(rooms_mesh tet soup io)
-set(rooms_projection image core cells order light reference cpu gl opaque repair frame)
+set(rooms_projection image core cells order light reference cpu gl opaque repair frame renderer)
 set(may_include_mesh_tet)
 set(may_include_mesh_soup tet)
 set(may_include_mesh_io soup tet)
@@ -36,7 +36,8 @@ foreach(room cpu gl opaque)
   set(may_include_projection_${room} order light cells core image)
 endforeach()
 set(may_include_projection_repair reference order light cells core image)
-set(may_include_projection_frame ${rooms_projection})
+set(may_include_projection_frame cpu gl opaque repair reference order light cells core image)
+set(may_include_projection_renderer ${rooms_projection})
 
 # Fills `out` with "FILE: what is wrong", one entry a breach.
 function(find_breaches root out)

@@ -19,7 +19,7 @@ namespace tetralux::mesh {
 namespace {
 
 /// Turns the tetrahedron round if need be. \returns Good, Inverted, Flat, IndexOutOfRange or NonFinitePosition.
-CellVerdict orientTetrahedron(const std::vector<glm::dvec3>& points, Tetrahedron& cell) {
+CellVerdict orientTetrahedron(std::span<const glm::dvec3> points, Tetrahedron& cell) {
     if (*std::max_element(cell.begin(), cell.end()) >= points.size()) {
         return CellVerdict::IndexOutOfRange;
     }
@@ -152,7 +152,7 @@ Decomposition joinBlocks(std::vector<Block>& blocks, CellSoup& soup) {
 
 }  // namespace
 
-Decomposition takeTetrahedra(const std::vector<glm::dvec3>& points, std::vector<Tetrahedron>&& cells,
+Decomposition takeTetrahedra(std::span<const glm::dvec3> points, std::vector<Tetrahedron>&& cells,
                              std::vector<CellVerdict>& verdicts, std::vector<std::uint8_t>& used) {
     Decomposition result{std::move(cells), {}, 0};
     verdicts.resize(result.cells.size());

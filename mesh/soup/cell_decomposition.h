@@ -26,7 +26,7 @@ struct Decomposition {
 /// Checks tetrahedra, turns the inverted ones round and leaves out the faulty ones and duplicates, in parallel and in
 /// place. `verdicts` gets one verdict per cell, or none at all if every one is Good; `used` a 1 for each point that a
 /// cell names, else 0.
-Decomposition takeTetrahedra(const std::vector<glm::dvec3>& points, std::vector<Tetrahedron>&& cells,
+Decomposition takeTetrahedra(std::span<const glm::dvec3> points, std::vector<Tetrahedron>&& cells,
                              std::vector<CellVerdict>& verdicts, std::vector<std::uint8_t>& used);
 
 /// Takes the kept cells of `soup` apart, in parallel, and away. Adds points to `soup` where it needs them and sets

@@ -81,7 +81,7 @@ void linkBucket(const std::vector<FaceEntry>& bucket, Adjacency& adjacency, Coun
 
 /// `FaceId` numbers faces as 4 · cell + k: 32 bits where they suffice, as this is the largest array here.
 template <class FaceId>
-void linkFaces(const std::vector<Tetrahedron>& cells, std::size_t pointCount, Adjacency& adjacency) {
+void linkFaces(std::span<const Tetrahedron> cells, std::size_t pointCount, Adjacency& adjacency) {
     const VertexBuckets<FaceId> buckets(4 * cells.size(), pointCount,
                                         [&](std::size_t face) { return smallestVertex(cells[face >> 2], face & 3); });
     struct Worker {
@@ -112,7 +112,7 @@ void linkFaces(const std::vector<Tetrahedron>& cells, std::size_t pointCount, Ad
 
 }  // namespace
 
-Adjacency buildAdjacency(const std::vector<Tetrahedron>& cells, std::size_t pointCount) {
+Adjacency buildAdjacency(std::span<const Tetrahedron> cells, std::size_t pointCount) {
     constexpr CellIndex none = Adjacency::noNeighbour;
     Adjacency adjacency;
     adjacency.neighbours.assign(cells.size(), {none, none, none, none});

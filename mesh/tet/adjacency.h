@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <mesh/tet/tet_mesh.h>
@@ -21,6 +22,6 @@ struct Adjacency {
 };
 
 /// Built by face keys in O(cells), in parallel. Every index in `cells` must be below `pointCount`.
-Adjacency buildAdjacency(const std::vector<Tetrahedron>& cells, std::size_t pointCount);
+Adjacency buildAdjacency(std::span<const Tetrahedron> cells, std::size_t pointCount);
 
 }  // namespace tetralux::mesh

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t leafCells = 4;
 }
 
-CellTree::CellTree(const std::vector<glm::dvec3>& positions, const std::vector<Tetrahedron>& cells) {
+CellTree::CellTree(std::span<const glm::dvec3> positions, std::span<const Tetrahedron> cells) {
     if (cells.empty()) return;
     order_.resize(cells.size());
     std::iota(order_.begin(), order_.end(), CellIndex{0});

@@ -9,7 +9,7 @@ namespace tetralux::mesh {
 /// Tetrahedra in a tree of bounding boxes.
 class CellTree : public BoxTree {
 public:
-    CellTree(const std::vector<glm::dvec3>& positions, const std::vector<Tetrahedron>& cells);
+    CellTree(std::span<const glm::dvec3> positions, std::span<const Tetrahedron> cells);
 };
 
 }  // namespace tetralux::mesh

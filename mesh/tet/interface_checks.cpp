@@ -39,7 +39,7 @@ double reachOf(const Corners& t, double scale) {
     return std::min(1e-3 * edge, 1e-6 * edge + 1e-7 * scale);
 }
 
-BoundaryFaces collectBoundary(const std::vector<glm::dvec3>& positions, const std::vector<Tetrahedron>& cells,
+BoundaryFaces collectBoundary(std::span<const glm::dvec3> positions, std::span<const Tetrahedron> cells,
                               const Adjacency& adjacency) {
     BoundaryFaces faces;
     double scale = 0.0;
@@ -190,8 +190,8 @@ std::optional<int> partsAround(const glm::dvec3& x, const glm::dvec3& direction,
 }
 
 /// Cells of parts that lie inside other parts, whose faces cross nothing.
-void addEnclosed(const BoundaryFaces& faces, const TriangleTree& tree, const std::vector<glm::dvec3>& positions,
-                 const std::vector<Tetrahedron>& cells, std::vector<std::uint8_t>& marked) {
+void addEnclosed(const BoundaryFaces& faces, const TriangleTree& tree, std::span<const glm::dvec3> positions,
+                 std::span<const Tetrahedron> cells, std::vector<std::uint8_t>& marked) {
     const std::vector<std::uint32_t> parts = oneFaceOfEachPart(faces, positions.size());
     if (parts.size() < 2) {
         return;
@@ -235,8 +235,8 @@ void forEachShared(const BoundaryFaces& faces, const Use& use) {
 
 }  // namespace
 
-std::map<Defect, DefectCount> interfaceDefects(const std::vector<glm::dvec3>& positions,
-                                               const std::vector<Tetrahedron>& cells, const Adjacency& adjacency) {
+std::map<Defect, DefectCount> interfaceDefects(std::span<const glm::dvec3> positions,
+                                               std::span<const Tetrahedron> cells, const Adjacency& adjacency) {
     MeshReport report;
     const BoundaryFaces faces = collectBoundary(positions, cells, adjacency);
     std::vector<std::uint8_t> overlapping(faces.cells.size(), 0), gaping(faces.cells.size(), 0);

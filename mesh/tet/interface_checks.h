@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <vector>
 
 #include <mesh/tet/adjacency.h>
@@ -19,7 +20,7 @@ namespace tetralux::mesh {
 /// - non-conforming interfaces: boundary faces that lie against another from the other side without having the same
 ///   points (hanging nodes, quadrilaterals cut along different diagonals).
 /// Crossings and gaps below a thousandth of an edge are no defects. O(boundary faces · log), in parallel.
-std::map<Defect, DefectCount> interfaceDefects(const std::vector<glm::dvec3>& positions,
-                                               const std::vector<Tetrahedron>& cells, const Adjacency& adjacency);
+std::map<Defect, DefectCount> interfaceDefects(std::span<const glm::dvec3> positions,
+                                               std::span<const Tetrahedron> cells, const Adjacency& adjacency);
 
 }  // namespace tetralux::mesh

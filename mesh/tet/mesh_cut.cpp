@@ -19,7 +19,7 @@ namespace tetralux::mesh {
 
 namespace {
 
-glm::dvec3 placeOn(const EdgePoint& point, const std::vector<glm::dvec3>& positions) {
+glm::dvec3 placeOn(const EdgePoint& point, std::span<const glm::dvec3> positions) {
     return glm::mix(positions[point.a], positions[point.b], point.fraction);
 }
 
@@ -43,7 +43,7 @@ private:
 
 class LevelCutter {
 public:
-    LevelCutter(const std::vector<glm::dvec3>& positions, const std::vector<double>& heights, double level)
+    LevelCutter(std::span<const glm::dvec3> positions, std::span<const double> heights, double level)
         : positions_(positions), heights_(heights), level_(level), points_(cut_) {}
 
     void add(CellIndex cell, const Tetrahedron& corners) {
@@ -97,8 +97,8 @@ private:
         return points_.of(point);
     }
 
-    const std::vector<glm::dvec3>& positions_;
-    const std::vector<double>& heights_;
+    const std::span<const glm::dvec3> positions_;
+    const std::span<const double> heights_;
     const double level_;
     MeshCut cut_;
     CutPoints points_;
@@ -110,15 +110,15 @@ void turnOver(MeshCut& cut) {
 
 }  // namespace
 
-MeshCut cutAtLevel(const std::vector<glm::dvec3>& positions, const std::vector<Tetrahedron>& cells,
-                   const std::vector<double>& heights, double level) {
+MeshCut cutAtLevel(std::span<const glm::dvec3> positions, std::span<const Tetrahedron> cells,
+                   std::span<const double> heights, double level) {
     LevelCutter cutter(positions, heights, level);
     for (std::size_t cell = 0; cell < cells.size(); ++cell) cutter.add(static_cast<CellIndex>(cell), cells[cell]);
     return cutter.take();
 }
 
-MeshCut cutAtPlane(const std::vector<glm::dvec3>& positions, const std::vector<Tetrahedron>& cells,
-                   const glm::dvec3& point, const glm::dvec3& normal) {
+MeshCut cutAtPlane(std::span<const glm::dvec3> positions, std::span<const Tetrahedron> cells, const glm::dvec3& point,
+                   const glm::dvec3& normal) {
     const auto cutFrom = [&](const glm::dvec3& unitNormal) {
         std::vector<double> heights(positions.size());
         tbb::parallel_for(std::size_t{0}, heights.size(),
@@ -132,7 +132,7 @@ MeshCut cutAtPlane(const std::vector<glm::dvec3>& positions, const std::vector<T
     return cut.triangles.empty() ? cutFrom(-unit) : cut;
 }
 
-MeshCut boundaryFaces(const std::vector<Tetrahedron>& cells, std::size_t pointCount) {
+MeshCut boundaryFaces(std::span<const Tetrahedron> cells, std::size_t pointCount) {
     const Adjacency adjacency = buildAdjacency(cells, pointCount);
     MeshCut cut;
     CutPoints points(cut);
@@ -148,13 +148,13 @@ MeshCut boundaryFaces(const std::vector<Tetrahedron>& cells, std::size_t pointCo
     return cut;
 }
 
-std::vector<glm::dvec3> cutPositions(const MeshCut& cut, const std::vector<glm::dvec3>& positions) {
+std::vector<glm::dvec3> cutPositions(const MeshCut& cut, std::span<const glm::dvec3> positions) {
     std::vector<glm::dvec3> result(cut.points.size());
     for (std::size_t i = 0; i < result.size(); ++i) result[i] = placeOn(cut.points[i], positions);
     return result;
 }
 
-std::vector<double> cutValues(const MeshCut& cut, const std::vector<double>& values, int components) {
+std::vector<double> cutValues(const MeshCut& cut, std::span<const double> values, int components) {
     const auto width = static_cast<std::size_t>(components);
     std::vector<double> result(cut.points.size() * width);
     for (std::size_t i = 0; i < cut.points.size(); ++i)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include <mesh/tet/tet_mesh.h>
@@ -28,22 +29,22 @@ struct MeshCut {
 /// everywhere alike: f to b crosses exactly when (f < level) ≠ (b < level). Corners on one edge are one point, and
 /// what falls on a point of the mesh, in double precision, is that point, so that no triangle is open but at faces with
 /// a cell on one side only. Cells with a height that is not finite are left out.
-MeshCut cutAtLevel(const std::vector<glm::dvec3>& positions, const std::vector<Tetrahedron>& cells,
-                   const std::vector<double>& heights, double level);
+MeshCut cutAtLevel(std::span<const glm::dvec3> positions, std::span<const Tetrahedron> cells,
+                   std::span<const double> heights, double level);
 
 /// The part of the plane through `point` that lies inside the mesh, its triangles seen counter-clockwise from where
 /// `normal` (any length but 0) points. A plane that runs along faces takes each of them once, also those of the
 /// boundary. Empty where the plane misses the mesh.
-MeshCut cutAtPlane(const std::vector<glm::dvec3>& positions, const std::vector<Tetrahedron>& cells,
-                   const glm::dvec3& point, const glm::dvec3& normal);
+MeshCut cutAtPlane(std::span<const glm::dvec3> positions, std::span<const Tetrahedron> cells, const glm::dvec3& point,
+                   const glm::dvec3& normal);
 
 /// All faces without a cell behind them, seen counter-clockwise from outside.
-MeshCut boundaryFaces(const std::vector<Tetrahedron>& cells, std::size_t pointCount);
+MeshCut boundaryFaces(std::span<const Tetrahedron> cells, std::size_t pointCount);
 
 /// Where the points of a cut are.
-std::vector<glm::dvec3> cutPositions(const MeshCut& cut, const std::vector<glm::dvec3>& positions);
+std::vector<glm::dvec3> cutPositions(const MeshCut& cut, std::span<const glm::dvec3> positions);
 
 /// One value per point of the cut, from `components` values per point of the mesh.
-std::vector<double> cutValues(const MeshCut& cut, const std::vector<double>& values, int components = 1);
+std::vector<double> cutValues(const MeshCut& cut, std::span<const double> values, int components = 1);
 
 }  // namespace tetralux::mesh

@@ -189,7 +189,7 @@ std::uint64_t memoryOf(const TetMesh& mesh) {
 
 }  // namespace
 
-Histogram histogramOf(const std::vector<double>& values) {
+Histogram histogramOf(std::span<const double> values) {
     return makeHistogram(values.size(), [&](std::size_t i) { return values[i]; });
 }
 

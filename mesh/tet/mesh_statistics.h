@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct Histogram {
     std::uint64_t nonFinite = 0;
     std::vector<std::uint64_t> counts;  ///< 64 classes; empty if low == high
 };
-Histogram histogramOf(const std::vector<double>& values);
+Histogram histogramOf(std::span<const double> values);
 
 /// Values are those of the field, or the magnitudes of its vectors. Non-finite ones are only counted.
 struct FieldStatistics {

@@ -7,7 +7,7 @@
 
 namespace tetralux::mesh {
 
-PointCells::PointCells(const std::vector<Tetrahedron>& cells, std::size_t pointCount)
+PointCells::PointCells(std::span<const Tetrahedron> cells, std::size_t pointCount)
     : starts_(pointCount + 1), cells_(4 * cells.size()) {
     const VertexBuckets<std::size_t> buckets(4 * cells.size(), pointCount,
                                              [&](std::size_t i) { return cells[i / 4][i % 4]; });

@@ -12,7 +12,7 @@ namespace tetralux::mesh {
 class PointCells {
 public:
     /// Every index in `cells` must be below `pointCount`.
-    PointCells(const std::vector<Tetrahedron>& cells, std::size_t pointCount);
+    PointCells(std::span<const Tetrahedron> cells, std::size_t pointCount);
 
     std::span<const CellIndex> of(std::size_t point) const {
         return {cells_.data() + starts_[point], cells_.data() + starts_[point + 1]};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -178,7 +179,7 @@ bool hasFiniteScalars(const ScalarMesh& mesh, std::size_t cell) {
                        [&](PointIndex p) { return std::isfinite(finiteIfDrawable(mesh.scalars[p])); });
 }
 
-bool areAllFinite(const std::vector<double>& values) {
+bool areAllFinite(std::span<const double> values) {
     std::atomic<bool> finite = true;
     tbb::parallel_for(Range(0, values.size(), 65536), [&](const Range& range) {
         // 0 for every finite value, else NaN: without a branch this is many values at a time.
@@ -266,14 +267,19 @@ ScalarSelection selectScalar(TetMesh&& mesh, const std::string& name, MeshReport
     if (selection.mesh.cells.empty()) {
         throw std::runtime_error("the mesh has no cell to show; give a mesh with at least one solid cell");
     }
-    selection.nonFiniteCells = dropNonFiniteCells(selection.mesh, report);
+    selection.nonFiniteCells = finishScalars(selection.mesh, report);
     if (selection.mesh.cells.empty()) {
         throw std::runtime_error(
             fmt::format("field '{}' is NaN, infinite or beyond 1e280 in every cell; choose another with --scalar",
                         selection.fieldName));
     }
-    findRangeAndBounds(selection.mesh, selection.nonFiniteCells == 0);
     return selection;
+}
+
+std::uint64_t finishScalars(ScalarMesh& mesh, MeshReport& report) {
+    const std::uint64_t dropped = dropNonFiniteCells(mesh, report);
+    if (!mesh.cells.empty()) findRangeAndBounds(mesh, dropped == 0);
+    return dropped;
 }
 
 }  // namespace tetralux::mesh

@@ -27,4 +27,8 @@ struct ScalarSelection {
 /// std::runtime_error listing the fields there are when the name is wrong or no cell is left.
 ScalarSelection selectScalar(TetMesh&& mesh, const std::string& name, MeshReport& report);
 
+/// Leaves out the cells of `mesh` with a non-finite scalar, counted in `report`, and finds the range and the bounds of
+/// the others. \returns how many were left out; where that is all of them range and bounds are not set.
+std::uint64_t finishScalars(ScalarMesh& mesh, MeshReport& report);
+
 }  // namespace tetralux::mesh

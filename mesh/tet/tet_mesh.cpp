@@ -21,7 +21,7 @@ double sixVolumes(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
     return glm::dot(glm::cross(b - a, c - a), d - a);
 }
 
-std::vector<std::uint8_t> usedPoints(const std::vector<Tetrahedron>& cells, std::size_t pointCount) {
+std::vector<std::uint8_t> usedPoints(std::span<const Tetrahedron> cells, std::size_t pointCount) {
     std::vector<std::uint8_t> used(pointCount, 0);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 16384),
                       [&](const tbb::blocked_range<std::size_t>& range) {
@@ -34,11 +34,11 @@ std::vector<std::uint8_t> usedPoints(const std::vector<Tetrahedron>& cells, std:
     return used;
 }
 
-BoundingBox usedBounds(const std::vector<glm::dvec3>& positions, const std::vector<Tetrahedron>& cells) {
+BoundingBox usedBounds(std::span<const glm::dvec3> positions, std::span<const Tetrahedron> cells) {
     return cells.empty() ? BoundingBox{} : usedBounds(positions, usedPoints(cells, positions.size()));
 }
 
-BoundingBox usedBounds(const std::vector<glm::dvec3>& positions, const std::vector<std::uint8_t>& used) {
+BoundingBox usedBounds(std::span<const glm::dvec3> positions, const std::vector<std::uint8_t>& used) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const BoundingBox nothing{glm::dvec3(infinity), glm::dvec3(-infinity)};
     return tbb::parallel_reduce(

@@ -16,11 +16,13 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
 #include <mesh/tet/field.h>
+#include <mesh/tet/shared_array.h>
 
 namespace tetralux::mesh {
 
@@ -50,10 +52,10 @@ struct TetMesh {
 /// What an engine draws: tetrahedra with one finite scalar on points (linear within a cell) or on cells
 /// (constant within a cell).
 struct ScalarMesh {
-    std::vector<glm::dvec3> positions;  ///< mesh units
-    std::vector<Tetrahedron> cells;
+    SharedArray<glm::dvec3> positions;  ///< mesh units
+    SharedArray<Tetrahedron> cells;
     Association association = Association::Point;
-    std::vector<double> scalars;              ///< one per point or per cell
+    SharedArray<double> scalars;              ///< one per point or per cell
     double scalarMin = 0.0, scalarMax = 0.0;  ///< over the points of cells, or over cells
     BoundingBox bounds;                       ///< of the points that cells use
 
@@ -67,12 +69,12 @@ struct ScalarMesh {
 double sixVolumes(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d);
 
 /// 1 for each of `pointCount` points that a cell uses, else 0.
-std::vector<std::uint8_t> usedPoints(const std::vector<Tetrahedron>& cells, std::size_t pointCount);
+std::vector<std::uint8_t> usedPoints(std::span<const Tetrahedron> cells, std::size_t pointCount);
 
 /// Bounds of the points that cells use; a box of zeros when there are no cells.
-BoundingBox usedBounds(const std::vector<glm::dvec3>& positions, const std::vector<Tetrahedron>& cells);
+BoundingBox usedBounds(std::span<const glm::dvec3> positions, std::span<const Tetrahedron> cells);
 /// The same for points marked by `usedPoints`.
-BoundingBox usedBounds(const std::vector<glm::dvec3>& positions, const std::vector<std::uint8_t>& used);
+BoundingBox usedBounds(std::span<const glm::dvec3> positions, const std::vector<std::uint8_t>& used);
 
 /// Gradient of the scalar that is linear in the cell, scalar units per mesh unit; zero for cell data.
 glm::dvec3 cellGradient(const ScalarMesh& mesh, CellIndex cell);

@@ -13,7 +13,7 @@ namespace tetralux::projection {
 
 namespace {
 
-constexpr int largestSize = 16384;
+constexpr int largestSize = 16384, largestWhole = 1 << 20;
 
 bool finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -35,8 +35,15 @@ CameraFrame cameraFrame(const Camera& camera) {
     if (camera.width < 1 || camera.height < 1 || camera.width > largestSize || camera.height > largestSize)
         throw std::runtime_error(fmt::format("image size {}x{}: each side must be 1 to {} pixels; give --size WxH",
                                              camera.width, camera.height, largestSize));
+    const glm::ivec2 whole = camera.whole == glm::ivec2(0) ? glm::ivec2(camera.width, camera.height) : camera.whole;
+    if (camera.tile.x < 0 || camera.tile.y < 0 || whole.x > largestWhole || whole.y > largestWhole ||
+        camera.width > whole.x - camera.tile.x || camera.height > whole.y - camera.tile.y)
+        throw std::runtime_error(fmt::format("tile of {}x{} pixels at {},{}: does not lie within {}x{} pixels",
+                                             camera.width, camera.height, camera.tile.x, camera.tile.y, whole.x,
+                                             whole.y));
     if (!finite(camera.eye) || !finite(camera.target) || !finite(camera.up) ||
-        !std::isfinite(camera.orthographicHeight) || camera.orthographicHeight < 0)
+        !std::isfinite(camera.orthographicHeight) || camera.orthographicHeight < 0 ||
+        !std::isfinite(camera.windowCentre.x) || !std::isfinite(camera.windowCentre.y))
         throw std::runtime_error("camera: a coordinate is not a finite number; give --eye, --target and --up as x,y,z");
     if (!camera.orthographic() && !(camera.fovDegrees > 0 && camera.fovDegrees < 180))
         throw std::runtime_error(
@@ -55,11 +62,12 @@ CameraFrame cameraFrame(const Camera& camera) {
     frame.orthographic = camera.orthographic();
     frame.width = camera.width;
     frame.height = camera.height;
-    frame.centre = {0.5 * (camera.width - 1), 0.5 * (camera.height - 1)};
+    frame.centre = {0.5 * (whole.x - 1) - 0.5 * whole.x * camera.windowCentre.x - camera.tile.x,
+                    0.5 * (whole.y - 1) + 0.5 * whole.y * camera.windowCentre.y - camera.tile.y};
 
     double imageHeight = frame.orthographic ? camera.orthographicHeight : 2.0 * tangentOfHalfFov(camera);
-    frame.perPixelRight = frame.right * (imageHeight / camera.height);
-    frame.perPixelDown = -frame.up * (imageHeight / camera.height);
+    frame.perPixelRight = frame.right * (imageHeight / whole.y);
+    frame.perPixelDown = -frame.up * (imageHeight / whole.y);
     return frame;
 }
 

@@ -14,6 +14,10 @@ struct Camera {
     double fovDegrees = 30.0;         ///< vertical; not used when orthographic
     double orthographicHeight = 0.0;  ///< > 0: orthographic, this many mesh units over the image's height
     int width = 512, height = 512;    ///< pixels
+    /// Where the picture's middle lies beside the optical axis: half widths to the right, half heights up.
+    glm::dvec2 windowCentre{0};
+    /// Of a larger picture, which part this is: its left upper pixel there, and the size of the whole; 0: all of it.
+    glm::ivec2 tile{0}, whole{0};
 
     bool orthographic() const { return orthographicHeight > 0.0; }
     bool operator==(const Camera&) const = default;
@@ -25,7 +29,7 @@ struct Camera {
 struct CameraFrame {
     glm::dvec3 eye, forward, right, up;
     glm::dvec3 perPixelRight, perPixelDown;  ///< length at depth 1 (perspective) or mesh units (orthographic)
-    glm::dvec2 centre;                       ///< pixel coordinates of the optical axis: ((W − 1)/2, (H − 1)/2)
+    glm::dvec2 centre;  ///< pixel coordinates of the optical axis: ((W − 1)/2, (H − 1)/2) unless it is off-centre
     bool orthographic = false;
     int width = 0, height = 0;
     /// Fast engines sample this much beside the pixel's centre (pixels), as EdgeOnPlanes says; cells' numbers include

@@ -43,6 +43,7 @@ struct FrameReport {
     std::string dataPath;  ///< gl: "stream", "resident" or "tiles" (gl_path.h), and why
     std::string dataPathReason;
     std::uint64_t bytesUploaded = 0;        ///< gl: what the frame sent to the renderer for its cells and their order
+    int drawnWidth = 0, drawnHeight = 0;    ///< pixels before the picture was enlarged, where a budget made it coarser
     std::shared_ptr<const PixelMaps> maps;  ///< what the frame was drawn with, where the scene has any
 };
 

@@ -11,6 +11,7 @@
 #include <glm/vec4.hpp>
 
 #include <projection/core/camera.h>
+#include <projection/core/frame_control.h>
 #include <projection/image/image.h>
 
 namespace tetralux::projection {
@@ -33,13 +34,13 @@ struct Veil {
 struct PixelMaps {
     std::vector<double>
         nearest;  ///< distance along the unit ray (mesh units) before which nothing of the volume is seen
-    std::vector<double> farthest;          ///< distance behind which nothing of the volume is seen (an opaque surface)
+    std::vector<double> farthest;        ///< distance behind which nothing of the volume is seen (an opaque surface)
     std::vector<double> cutLayerEnd;     ///< distance up to which the ray runs within the layer of a cut, whose normal
                                          ///< is lit there in the place of the field's; 0: no layer
     std::vector<glm::vec3> cutNormal;    ///< of that layer: world space, unit, towards the eye's side
     std::vector<float> extinctionScale;  ///< factor of extinction and of the depth of isosurfaces, ≥ 0
-    std::vector<glm::vec4> behind;         ///< premultiplied RGBA put under the volume (slices, opaque surfaces)
-    std::vector<Veil> veils;               ///< within the volume, between nearest and farthest; ascending
+    std::vector<glm::vec4> behind;       ///< premultiplied RGBA put under the volume (slices, opaque surfaces)
+    std::vector<Veil> veils;             ///< within the volume, between nearest and farthest; ascending
 
     bool empty() const {
         return nearest.empty() && farthest.empty() && extinctionScale.empty() && behind.empty() && veils.empty();
@@ -53,9 +54,12 @@ struct PixelMaps {
 /// What an engine is asked for; made implicitly of a camera alone.
 struct View {
     Camera camera;
-    const PixelMaps* maps = nullptr;  ///< nullptr: no limits; else of the camera's size
+    const PixelMaps* maps = nullptr;        ///< nullptr: no limits; else of the camera's size
+    const FrameControl* control = nullptr;  ///< nullptr: nobody stops the frame
 
-    View(const Camera& c, const PixelMaps* m = nullptr) : camera(c), maps(m) {}  // NOLINT: implicit on purpose
+    View(const Camera& c, const PixelMaps* m = nullptr,
+         const FrameControl* wait = nullptr)  // NOLINT: implicit on purpose
+        : camera(c), maps(m), control(wait) {}
 };
 
 /// Adds to the maps of every frame: clip planes, opaque surfaces. Those of a scene are asked in turn.

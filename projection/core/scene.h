@@ -11,6 +11,7 @@
 #include <mesh/tet/tet_mesh.h>
 #include <preint/preintegration_table.h>
 #include <preint/transfer_function.h>
+#include <projection/core/kept.h>
 #include <projection/core/modes.h>
 #include <projection/core/pixel_maps.h>
 #include <shading/lights.h>
@@ -31,7 +32,8 @@ struct RenderSettings {
     std::optional<AdaptiveSettings> adaptive;
     double largestExtinctionScale = 0.0;  ///< of the pixel maps that views will bring; 0: they bring none
     preint::TableOptions table;
-    int threads = 0;  ///< 0: all
+    static constexpr int threadsOfCaller = -1;
+    int threads = 0;  ///< 0: all; or those of the arena in which the engine is made and asked for frames
     /// The cpu engine walks along every node of the transfer function. Off: where there are many, it takes runs of
     /// nodes that a line meets within 1e-5 as one.
     bool everyNode = false;
@@ -50,6 +52,9 @@ struct Scene {
     std::vector<std::shared_ptr<const mesh::SurfaceMesh>> shadowCasters = {};
     /// Kept for several engines (withVertexLight in light_frame.h); where there is none each makes its own.
     std::shared_ptr<const shading::VertexLight> vertexLight{};
+    /// Both are nullptr where one engine draws one scene, and nothing is kept for another.
+    std::shared_ptr<MeshMemo> meshMemo{};        ///< of this mesh's points and cells, whatever the field
+    std::shared_ptr<FrameMemory> frameMemory{};  ///< of whoever draws one scene after the other
 };
 
 }  // namespace tetralux::projection

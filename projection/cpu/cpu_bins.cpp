@@ -21,9 +21,10 @@ void TileBins::reset(std::size_t chunks, int tilesX, int tilesY) {
 }
 
 void TileBins::fill(const Survivor* survivors, const std::vector<SurvivorChunk>& chunks, double nearest,
-                    double farthest, const std::uint32_t* cellPlaces) {
+                    double farthest, const std::uint32_t* cellPlaces, const FrameControl* control) {
     start_.resize(tiles_ + 1);
     tbb::parallel_for(std::size_t{0}, tiles_, [&](std::size_t tile) {
+        checkStop(control);
         std::uint32_t sum = 0;
         for (std::size_t c = 0; c < chunks.size(); ++c) sum += std::exchange(places_[c * tiles_ + tile], sum);
         start_[tile + 1] = sum;
@@ -36,6 +37,7 @@ void TileBins::fill(const Survivor* survivors, const std::vector<SurvivorChunk>&
     }
     entries_.resize(start_[tiles_]);
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t c) {
+        checkStop(control);
         std::uint32_t* places = counts(c);
         for (std::size_t i = chunks[c].begin; i < chunks[c].begin + chunks[c].count; ++i) {
             const Survivor& survivor = survivors[i];
@@ -48,9 +50,10 @@ void TileBins::fill(const Survivor* survivors, const std::vector<SurvivorChunk>&
     });
 }
 
-void TileBins::sort() {
+void TileBins::sort(const FrameControl* control) {
     tbb::enumerable_thread_specific<std::vector<TileEntry>> scratch;
     tbb::parallel_for(std::size_t{0}, tileCount(), [&](std::size_t tile) {
+        checkStop(control);
         sortEntries({entries_.data() + start_[tile], entries_.data() + start_[tile + 1]}, scratch.local());
     });
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include <projection/core/frame_control.h>
 #include <projection/cpu/cpu_cull.h>
 
 namespace tetralux::projection {
@@ -26,10 +27,10 @@ public:
     /// same for any number of threads. Keys become whole numbers that ascend from `nearest` down to `farthest`; with
     /// `places` those of the cells are taken instead.
     void fill(const Survivor* survivors, const std::vector<SurvivorChunk>& chunks, double nearest, double farthest,
-              const std::uint32_t* places = nullptr);
+              const std::uint32_t* places, const FrameControl* control);
 
     /// Sorts each tile's list by key; equal keys keep their order.
-    void sort();
+    void sort(const FrameControl* control);
 
     std::size_t tileCount() const { return tiles_; }
     std::size_t entryCount() const { return entries_.size(); }

@@ -8,15 +8,11 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <thread>
 #include <utility>
-
-#ifdef __GLIBC__  // told by any header of the library's
-#include <malloc.h>
-#endif
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
@@ -58,12 +54,16 @@ constexpr double leastShareForBits = 0.8;
 /// Counts per chunk and tile are kept below this, and chunks above a size that is worth a task.
 constexpr std::size_t mostPlaces = std::size_t{1} << 20, leastChunk = 4096, usualChunk = 16384;
 
-/// What preparing took and freed goes back to the system: the frames' lists would lie beside it.
-void returnFreedMemory() {
-#ifdef __GLIBC__
-    malloc_trim(0);
-#endif
-}
+/// What one frame leaves to the next, of this engine or of another one of the same renderer.
+struct CpuFrameMemory {
+    std::optional<CpuOrder> order;  // of the last frame
+    std::vector<CameraPoint> points;
+    std::unique_ptr<Survivor[]> survivors;  // room for all candidates; memory is taken where some survive
+    std::size_t survivorRoom = 0;
+    std::vector<SurvivorChunk> chunks;
+    TileBins bins;
+    std::vector<std::uint32_t> tilesByWork;
+};
 
 class CpuEngine final : public Engine {
 public:
@@ -75,25 +75,27 @@ public:
           edgeOnPlanes_(mesh_),
           transfer_(inSceneUnits(scene.transferFunction, units_, integralOf(scene.settings.mode)),
                     scene.settings.everyNode ? 0.0 : nodeTolerance),
-          arena_(scene.settings.threads > 0 ? scene.settings.threads : tbb::task_arena::automatic) {
-        arena_.execute([&] { prepare(); });
+          memory_(scene.frameMemory ? scene.frameMemory->take<CpuFrameMemory>() : std::make_shared<CpuFrameMemory>()) {
+        prepare();
+    }
+
+    ~CpuEngine() override {
+        memory_->order = std::move(orderKeys_);
+        if (scene_.frameMemory) scene_.frameMemory->leave(std::move(memory_));
     }
 
     Image render(const View& view, FrameReport& report) override {
         checkPixelMaps(view);
         const Camera& camera = view.camera;
         const auto start = Clock::now();
-        Image image;
-        arena_.execute([&] {
-            if (!(skips_.keepFrame && keptCamera_ == camera)) {
-                keptCamera_.reset();
-                makeLists(camera, report);
-                keptCamera_ = camera;
-            }
-            setLimits(view);
-            image = Image(camera.width, camera.height);  // only now: it takes the place of the survivors
-            draw(image, report);
-        });
+        if (!(skips_.keepFrame && keptCamera_ == camera)) {
+            keptCamera_.reset();
+            makeLists(view, report);
+            keptCamera_ = camera;
+        }
+        setLimits(view);
+        Image image(camera.width, camera.height);  // only now: it takes the place of the survivors
+        draw(view.control, image, report);
         report.samplesBeside = cameraFrame_.sampleShift == EdgeOnPlanes::widely;
         report.cellsSkipped = skipped_;
         report.cellsDrawn = cellsDrawn_;
@@ -107,7 +109,7 @@ public:
 
     std::string name() const override { return "cpu"; }
     std::string renderer() const override {
-        return fmt::format("{}, {} threads", tileInstructionSet(), arena_.max_concurrency());
+        return fmt::format("{}, {} threads", tileInstructionSet(), tbb::this_task_arena::max_concurrency());
     }
     std::map<std::string, double> prepareMilliseconds() const override { return prepareMilliseconds_; }
 
@@ -120,11 +122,11 @@ private:
         return skips_.quickLooks && !samplesVertices(scene_) && silhouettesAtMost(scene_.settings.shading);
     }
     bool ordered() const { return !orderFree(scene_.settings.mode) && frame_.kind != TileKind::Absorption; }
-    void makeLists(const Camera& camera, FrameReport& report);
+    void makeLists(const View& view, FrameReport& report);
     void setFrame();
-    CullCounts cull();
+    CullCounts cull(const FrameControl* control);
     void setLimits(const View& view);
-    void draw(Image& image, FrameReport& report);
+    void draw(const FrameControl* control, Image& image, FrameReport& report);
     void sortTilesByWork();
 
     const Scene scene_;
@@ -133,7 +135,7 @@ private:
     const SceneUnits units_;
     const EdgeOnPlanes edgeOnPlanes_;
     const CpuTransfer transfer_;
-    tbb::task_arena arena_;
+    std::shared_ptr<CpuFrameMemory> memory_;
     std::map<std::string, double> prepareMilliseconds_;
 
     // of the scene
@@ -147,16 +149,10 @@ private:
     // of the last camera
     std::optional<Camera> keptCamera_;
     CameraFrame cameraFrame_;
-    std::vector<CameraPoint> points_;
     TileFrame frame_{};
     TileLimits limits_;
     bool limited_ = false;  // this frame takes drawLimitedTile
     int tilesX_ = 0, tilesY_ = 0;
-    std::unique_ptr<Survivor[]> survivors_;  // room for all candidates; memory is taken where some survive
-    std::size_t survivorRoom_ = 0;
-    std::vector<SurvivorChunk> chunks_;
-    TileBins bins_;
-    std::vector<std::uint32_t> tilesByWork_;
     CpuFrameOrder order_;
     std::uint64_t cellsDrawn_ = 0;
     std::map<std::string, std::uint64_t> skipped_;
@@ -229,9 +225,10 @@ void CpuEngine::prepare() {
     prepareMilliseconds_["cells"] = millisecondsSince(start);
     if (!frame_.ordered || !skips_.sort) return;
     const auto orderStart = Clock::now();
-    orderKeys_.emplace(mesh_, scene_.settings.order);
+    orderKeys_.emplace(mesh_, scene_.settings.order, scene_.meshMemo.get());
+    if (memory_->order) orderKeys_->takeOver(std::move(*memory_->order));
+    memory_->order.reset();
     prepareMilliseconds_["order"] = millisecondsSince(orderStart);
-    returnFreedMemory();
 }
 
 /// Which cells the transfer function shows: asked once, since it depends on no camera.
@@ -262,7 +259,7 @@ void CpuEngine::findVisibleCells() {
 void CpuEngine::setFrame() {
     const CameraFrame& frame = cameraFrame_;
     frame_.camera = &frame;
-    frame_.points = points_.data();
+    frame_.points = memory_->points.data();
     frame_.orthographic = frame.orthographic;
     frame_.width = frame.width;
     frame_.height = frame.height;
@@ -298,16 +295,17 @@ void CpuEngine::setLimits(const View& view) {
     frame_.greyPerDistance = range.greyAt(units_.length) - frame_.greyOfZero;
 }
 
-void CpuEngine::makeLists(const Camera& camera, FrameReport& report) {
+void CpuEngine::makeLists(const View& view, FrameReport& report) {
     auto& stages = report.stageMilliseconds;
     auto start = Clock::now();
     auto finish = [&](const char* stage) {
         stages[stage] += millisecondsSince(start);
         start = Clock::now();
+        checkStop(view.control);
     };
-    cameraFrame_ = sampledFrame(camera, edgeOnPlanes_);
+    cameraFrame_ = sampledFrame(view.camera, edgeOnPlanes_);
     const CameraFrame& frame = cameraFrame_;
-    projectPoints(mesh_, units_, frame, points_);
+    projectPoints(mesh_, units_, frame, memory_->points);
     setFrame();
     finish("project");
 
@@ -315,7 +313,7 @@ void CpuEngine::makeLists(const Camera& camera, FrameReport& report) {
     tilesY_ = (frame.height + cpuTileSize - 1) / cpuTileSize;
     order_ = {};
     CullCounts counts;
-    const auto sort = [&] { return orderKeys_->orderOf(CellProjector(mesh_, units_, frame, points_)); };
+    const auto sort = [&] { return orderKeys_->orderOf(CellProjector(mesh_, units_, frame, memory_->points)); };
     if (orderKeys_ && !orderKeys_->keyed()) {  // part of it is for one thread alone
         CpuFrameOrder sorted;
         tbb::parallel_invoke(
@@ -323,28 +321,29 @@ void CpuEngine::makeLists(const Camera& camera, FrameReport& report) {
                 sorted = sort();
                 finish("sort");
             },
-            [&] { counts = cull(); });
+            [&] { counts = cull(view.control); });
         order_ = std::move(sorted);
     } else {
         if (orderKeys_) order_ = sort();
-        counts = cull();
+        counts = cull(view.control);
     }
     finish("cull");
-    bins_.fill(survivors_.get(), chunks_, counts.nearest, counts.farthest, order_.places);
-    if (survivorRoom_ * sizeof(Survivor) <= mostRecycled) {
-        survivors_.reset();
-        survivorRoom_ = 0;
+    memory_->bins.fill(memory_->survivors.get(), memory_->chunks, counts.nearest, counts.farthest, order_.places,
+                       view.control);
+    if (memory_->survivorRoom * sizeof(Survivor) <= mostRecycled) {
+        memory_->survivors.reset();
+        memory_->survivorRoom = 0;
     }
     sortTilesByWork();
     finish("bin");
     if (orderKeys_) {
-        bins_.sort();
+        memory_->bins.sort(view.control);
         report.cellsSorted = cellsDrawn_;
         finish("sort");
     }
 }
 
-CullCounts CpuEngine::cull() {
+CullCounts CpuEngine::cull(const FrameControl* control) {
     const bool listed = invisible_ > 0 && shown_.empty();
     const std::size_t candidates = listed ? visible_.size() : mesh_.cells.size();
     const std::size_t tiles = static_cast<std::size_t>(tilesX_) * static_cast<std::size_t>(tilesY_);
@@ -352,29 +351,30 @@ CullCounts CpuEngine::cull() {
         std::max({leastChunk, std::min(usualChunk, candidates / 64), candidates * tiles / mostPlaces + 1});
     const std::size_t chunkSize = (wanted + 63) / 64 * 64;  // whole words of shown_
     const std::size_t chunkCount = (candidates + chunkSize - 1) / chunkSize;
-    if (survivorRoom_ < candidates) {
+    if (memory_->survivorRoom < candidates) {
         // no smaller than the picture, so that malloc gives the picture the same pages (makeLists lets go of them)
         const std::size_t pictureBytes = sizeof(glm::vec4) * tiles * cpuTileSize * cpuTileSize;
-        survivorRoom_ = std::max(candidates, pictureBytes / sizeof(Survivor) + 1);
-        survivors_ = std::make_unique_for_overwrite<Survivor[]>(survivorRoom_);
+        memory_->survivorRoom = std::max(candidates, pictureBytes / sizeof(Survivor) + 1);
+        memory_->survivors = std::make_unique_for_overwrite<Survivor[]>(memory_->survivorRoom);
     }
-    chunks_.resize(chunkCount);
-    bins_.reset(chunkCount, tilesX_, tilesY_);
+    memory_->chunks.resize(chunkCount);
+    memory_->bins.reset(chunkCount, tilesX_, tilesY_);
     std::vector<CullCounts> counts(chunkCount);
     tbb::parallel_for(std::size_t{0}, chunkCount, [&](std::size_t c) {
+        checkStop(control);
         const std::size_t begin = c * chunkSize, end = std::min(candidates, begin + chunkSize);
         const CullTask task{listed ? visible_.data() : nullptr,
                             shown_.empty() ? nullptr : shown_.data(),
                             begin,
                             end,
                             order_.keys,
-                            survivors_.get() + begin,
+                            memory_->survivors.get() + begin,
                             tilesX_,
-                            bins_.counts(c)};
-        chunks_[c] = {begin, cullCells(frame_, task, counts[c])};
+                            memory_->bins.counts(c)};
+        memory_->chunks[c] = {begin, cullCells(frame_, task, counts[c])};
     });
     cellsDrawn_ = 0;
-    for (const auto& chunk : chunks_) cellsDrawn_ += chunk.count;
+    for (const auto& chunk : memory_->chunks) cellsDrawn_ += chunk.count;
     CullCounts sum;
     for (const auto& count : counts) {
         sum.outsideView += count.outsideView;
@@ -394,26 +394,31 @@ CullCounts CpuEngine::cull() {
 
 /// Longest lists first, so that no thread is left alone with one at the end.
 void CpuEngine::sortTilesByWork() {
-    tilesByWork_.resize(bins_.tileCount());
-    std::iota(tilesByWork_.begin(), tilesByWork_.end(), 0u);
-    std::stable_sort(tilesByWork_.begin(), tilesByWork_.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return bins_.tile(a).size() > bins_.tile(b).size(); });
+    memory_->tilesByWork.resize(memory_->bins.tileCount());
+    std::iota(memory_->tilesByWork.begin(), memory_->tilesByWork.end(), 0u);
+    std::stable_sort(memory_->tilesByWork.begin(), memory_->tilesByWork.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return memory_->bins.tile(a).size() > memory_->bins.tile(b).size();
+    });
 }
 
-void CpuEngine::draw(Image& image, FrameReport& report) {
+void CpuEngine::draw(const FrameControl* control, Image& image, FrameReport& report) {
     const auto start = Clock::now();
-    std::vector<TileResult> results(bins_.tileCount());
+    std::vector<TileResult> results(memory_->bins.tileCount());
     std::atomic<std::size_t> next{0};
-    const int threads = arena_.max_concurrency();
+    const int threads = tbb::this_task_arena::max_concurrency();
+    const auto starter = std::this_thread::get_id();
     tbb::parallel_for(
         0, threads,
         [&](int) {
-            for (std::size_t i = next++; i < tilesByWork_.size(); i = next++) {
-                const std::uint32_t tile = tilesByWork_[i];
+            for (std::size_t i = next++; i < memory_->tilesByWork.size(); i = next++) {
+                checkStop(control);
+                if (std::this_thread::get_id() == starter)
+                    tellProgress(control, static_cast<double>(i) / static_cast<double>(memory_->tilesByWork.size()));
+                const std::uint32_t tile = memory_->tilesByWork[i];
                 const auto columns = static_cast<std::uint32_t>(tilesX_);
                 (limited_ ? drawLimitedTile : drawTile)(frame_, static_cast<int>(tile % columns) * cpuTileSize,
                                                         static_cast<int>(tile / columns) * cpuTileSize,
-                                                        bins_.tile(tile), image, results[tile]);
+                                                        memory_->bins.tile(tile), image, results[tile]);
             }
         },
         tbb::simple_partitioner());
@@ -425,7 +430,7 @@ void CpuEngine::draw(Image& image, FrameReport& report) {
         report.tilesRetired += result.retired ? 1 : 0;
         doubtfulPixels.insert(doubtfulPixels.end(), result.doubtfulPixels.begin(), result.doubtfulPixels.end());
     }
-    report.tileEntries = bins_.entryCount();
+    report.tileEntries = memory_->bins.entryCount();
     report.tileEntriesSaved = report.tileEntries - cellsSetUp;
     std::sort(doubtfulPixels.begin(), doubtfulPixels.end());
     doubtfulPixels.erase(std::unique(doubtfulPixels.begin(), doubtfulPixels.end()), doubtfulPixels.end());

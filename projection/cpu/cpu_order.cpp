@@ -5,8 +5,8 @@
 
 namespace tetralux::projection {
 
-CpuOrder::CpuOrder(const mesh::ScalarMesh& mesh, OrderMethod method)
-    : sorter_(mesh, method, VisibilitySorter::Use::Keys) {}
+CpuOrder::CpuOrder(const mesh::ScalarMesh& mesh, OrderMethod method, MeshMemo* memo)
+    : sorter_(mesh, method, VisibilitySorter::Use::Keys, memo) {}
 
 CpuFrameOrder CpuOrder::orderOf(const CellProjector& projector) {
     CpuFrameOrder order;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <projection/cpu/cpu_cull.h>
@@ -27,7 +28,10 @@ struct CpuFrameOrder {
 /// else places in the order of the whole mesh.
 class CpuOrder {
 public:
-    CpuOrder(const mesh::ScalarMesh& mesh, OrderMethod method);
+    CpuOrder(const mesh::ScalarMesh& mesh, OrderMethod method, MeshMemo* memo);
+
+    /// Goes on with the order of the last frame of another engine of the same points and cells.
+    void takeOver(CpuOrder&& previous) { sorter_.takeOver(std::move(previous.sorter_)); }
 
     /// Whether an order takes no time: keys are told with what survives culling. Else it may be made meanwhile.
     bool keyed() const { return !sorter_.keys().empty(); }

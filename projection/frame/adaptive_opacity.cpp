@@ -103,7 +103,7 @@ public:
         report.maps = maps;
         const double spent =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-        Image image = engine_->render({view.camera, maps.get()}, report);
+        Image image = engine_->render({view.camera, maps.get(), view.control}, report);
         report.stageMilliseconds["measure"] += spent;
         report.frameMilliseconds += spent;
         return image;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tbb/task_arena.h>
 
 #include <projection/core/lowered_isosurfaces.h>
 #include <projection/core/scalar_range.h>
+#include <projection/core/wrapped_engine.h>
 #include <projection/cpu/cpu_engine.h>
 #include <projection/frame/adaptive_opacity.h>
 #include <projection/frame/engine_registry.h>
@@ -34,6 +37,29 @@ constexpr std::array engines{
     RegisteredEngine{"reference", makeReferenceEngine, 0.0, true},  // its ray caster sees to ties
 };
 
+/// Everything that a frame asks for in parallel runs in one arena: as many threads as were given, or as the caller's
+/// has. Engines take whatever arena they find themselves in.
+class ArenaEngine final : public WrappedEngine {
+public:
+    ArenaEngine(std::unique_ptr<tbb::task_arena> arena, std::unique_ptr<Engine> engine)
+        : WrappedEngine(std::move(engine)), arena_(std::move(arena)) {}
+    ~ArenaEngine() override {
+        arena_->execute([&] { engine_.reset(); });
+    }
+
+    Image render(const View& view, FrameReport& report) override {
+        return arena_->execute([&] { return engine_->render(view, report); });
+    }
+    std::string renderer() const override {
+        return arena_->execute([&] { return engine_->renderer(); });
+    }
+
+private:
+    std::unique_ptr<tbb::task_arena> arena_;
+};
+
+std::unique_ptr<Engine> makeEngineHere(const Scene& wanted, const EngineOptions& options);
+
 }  // namespace
 
 std::vector<std::string> engineNames() {
@@ -42,7 +68,17 @@ std::vector<std::string> engineNames() {
     return names;
 }
 
-std::unique_ptr<Engine> makeEngine(const Scene& wanted, const EngineOptions& options) {
+std::unique_ptr<Engine> makeEngine(const Scene& scene, const EngineOptions& options) {
+    const int threads = scene.settings.threads;
+    if (threads == RenderSettings::threadsOfCaller) return makeEngineHere(scene, options);
+    auto arena = std::make_unique<tbb::task_arena>(threads > 0 ? threads : int{tbb::task_arena::automatic});
+    auto engine = arena->execute([&] { return makeEngineHere(scene, options); });
+    return std::make_unique<ArenaEngine>(std::move(arena), std::move(engine));
+}
+
+namespace {
+
+std::unique_ptr<Engine> makeEngineHere(const Scene& wanted, const EngineOptions& options) {
     const Scene scene = withVertexLight(withScalarsInRange(wanted));
     const std::string name = options.engine != "auto" ? options.engine : engines.front().name;
     for (const auto& engine : engines)
@@ -57,5 +93,7 @@ std::unique_ptr<Engine> makeEngine(const Scene& wanted, const EngineOptions& opt
     throw std::runtime_error(fmt::format("engine '{}': there is no such engine; take one of auto, {}", options.engine,
                                          fmt::join(engineNames(), ", ")));
 }
+
+}  // namespace
 
 }  // namespace tetralux::projection

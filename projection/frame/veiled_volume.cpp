@@ -79,7 +79,7 @@ public:
         for (std::size_t part = 0; part <= veils.most(); ++part) {
             const PixelMaps maps = partOf(*view.maps, veils, pixels, part);
             FrameReport partReport;
-            Image drawn = engine_->render({view.camera, &maps}, part == 0 ? report : partReport);
+            Image drawn = engine_->render({view.camera, &maps, view.control}, part == 0 ? report : partReport);
             if (part == 0) {
                 image = std::move(drawn);
                 continue;

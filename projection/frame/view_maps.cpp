@@ -21,7 +21,7 @@ public:
         for (const auto& source : sources_) source->apply(view.camera, *maps);
         const double spent =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-        Image image = engine_->render({view.camera, maps->changeVolume() ? maps.get() : nullptr}, report);
+        Image image = engine_->render({view.camera, maps->changeVolume() ? maps.get() : nullptr, view.control}, report);
         composeBehind(image, *maps);
         if (!report.maps) report.maps = maps;  // adaptive opacity adds to them
         report.stageMilliseconds["maps"] += spent;

@@ -27,7 +27,7 @@ GlCellOrder::GlCellOrder(const Scene& scene, bool ordered, bool looksUp) : cellC
         visible_.resize(cellCount_);
         std::iota(visible_.begin(), visible_.end(), mesh::CellIndex{0});
     }
-    if (ordered) sorter_.emplace(*scene.mesh, scene.settings.order);
+    if (ordered) sorter_.emplace(*scene.mesh, scene.settings.order, VisibilitySorter::Use::Whole, scene.meshMemo.get());
 }
 
 void GlCellOrder::findVisible(const Scene& scene) {

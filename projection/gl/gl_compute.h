@@ -23,9 +23,10 @@ public:
     GlStorage(const GlStorage&) = delete;
     GlStorage& operator=(const GlStorage&) = delete;
 
-    template <class T>
-    static GlStorage of(const GlFunctions& gl, const std::vector<T>& values) {
-        return GlStorage(gl, values.size() * sizeof(T), values.data(), GL_STATIC_DRAW);
+    /// Of anything that lies in one piece: a vector, a shared array.
+    template <class Values>
+    static GlStorage of(const GlFunctions& gl, const Values& values) {
+        return GlStorage(gl, values.size() * sizeof(*values.data()), values.data(), GL_STATIC_DRAW);
     }
 
     GLuint name() const { return buffer_; }

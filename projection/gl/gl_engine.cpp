@@ -453,6 +453,7 @@ bool GlEngine::drawResident(const View& view, const CameraFrame& frame, FrameRep
 Image GlEngine::render(const View& view, FrameReport& report) {
     checkPixelMaps(view);
     if (view.maps != nullptr) checkScales(*view.maps);
+    checkStop(view.control);
     Stopwatch whole, watch;
     auto& stages = report.stageMilliseconds;
     const CameraFrame frame = sampledFrame(view.camera, edgeOnPlanes_);
@@ -470,6 +471,7 @@ Image GlEngine::render(const View& view, FrameReport& report) {
         drawStreamed(frame, cellProgram, report);
     }
     watch.lap();
+    checkStop(view.control);
     Image image = state_->target->read();
     resolveOrderFree(image, scene_, view.camera, units_);
     stages["read back"] = watch.lap();

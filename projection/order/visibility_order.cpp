@@ -2,8 +2,10 @@
 #include <projection/order/visibility_order.h>
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <tbb/blocked_range.h>
@@ -19,39 +21,28 @@
 
 namespace tetralux::projection {
 
-struct VisibilitySorter::State {
-    const mesh::ScalarMesh& mesh;
+namespace {
+
+/// What the order of any view stands on; of points and cells alone.
+struct MeshOrder {
     std::string method;
     OrderKeys keys;
     std::uint64_t failingFaces = 0;
     mesh::Adjacency adjacency;
     RoundedPlanes planes;
-    VisibilityRelations relations{adjacency, planes};
-    std::vector<std::uint32_t> nearer;
     std::vector<BoundaryFace> boundary;  // empty when it is convex: nothing to look for
-    VisibilityOrder last;
-    std::optional<CameraFrame> lastFrame;
 
-    void findOrder(const CellProjector& projector);
-    void seeGaps(const CellProjector& projector);
-
-    /// Which cells share faces, and where rays may enter again; true where they may not.
-    bool connect() {
-        adjacency = mesh::buildAdjacency(mesh.cells, mesh.positions.size());
-        boundary = boundaryFaces(mesh, adjacency);
-        const bool convex =
-            adjacency.nonManifoldFaces == 0 && adjacency.foldedFaces == 0 && boundaryIsConvex(mesh, boundary);
-        if (convex) boundary = {};
-        return convex;
-    }
-
-    State(const mesh::ScalarMesh& m, OrderMethod wanted, Use use) : mesh(m) {
+    MeshOrder(const mesh::ScalarMesh& mesh, OrderMethod wanted, VisibilitySorter::Use use) {
         if (wanted == OrderMethod::Centroid) {
             method = "centroid";
             keys = OrderKeys::centroid(mesh);
             return;
         }
-        const bool convex = connect();
+        adjacency = mesh::buildAdjacency(mesh.cells, mesh.positions.size());
+        boundary = boundaryFaces(mesh, adjacency);
+        const bool convex =
+            adjacency.nonManifoldFaces == 0 && adjacency.foldedFaces == 0 && boundaryIsConvex(mesh, boundary);
+        if (convex) boundary = {};
         method = convex ? "mpvo" : "mpvo+reentry";
         if (convex && wanted != OrderMethod::Graph) {
             const PowerOrder power(mesh, adjacency);
@@ -59,30 +50,74 @@ struct VisibilitySorter::State {
             if (failingFaces == 0) {
                 method = "power";
                 keys = OrderKeys::power(mesh, power.heights());
-                if (use == Use::Keys) adjacency = {};
+                if (use == VisibilitySorter::Use::Keys) adjacency = {};
             }
         }
         if (!adjacency.neighbours.empty()) planes = RoundedPlanes(mesh);
     }
 };
 
-VisibilitySorter::VisibilitySorter(const mesh::ScalarMesh& mesh, OrderMethod method, Use use)
-    : state_(std::make_unique<State>(mesh, method, use)) {
-    state_->last.method = state_->method;
+std::shared_ptr<const MeshOrder> orderOf(const mesh::ScalarMesh& mesh, OrderMethod method, VisibilitySorter::Use use,
+                                         MeshMemo* memo) {
+    const auto make = [&] { return MeshOrder(mesh, method, use); };
+    if (memo == nullptr) return std::make_shared<const MeshOrder>(make());
+    const std::string name =
+        "order " + std::to_string(static_cast<int>(method)) + std::to_string(static_cast<int>(use));
+    return memo->get<MeshOrder>(name, make);
 }
+
+}  // namespace
+
+struct VisibilitySorter::State {
+    const mesh::ScalarMesh& mesh;
+    MeshMemo* const memo;
+    const std::shared_ptr<const MeshOrder> order;
+    std::shared_ptr<const MeshOrder> connected = order;  // whose adjacency the relations are those of
+    std::optional<VisibilityRelations> relations;
+    std::vector<std::uint32_t> nearer;
+    VisibilityOrder last;
+    std::optional<CameraFrame> lastFrame;
+
+    void findOrder(const CellProjector& projector);
+    void seeGaps(const CellProjector& projector);
+
+    State(const mesh::ScalarMesh& m, OrderMethod method, Use use, MeshMemo* kept)
+        : mesh(m), memo(kept), order(orderOf(m, method, use, kept)) {
+        relations.emplace(order->adjacency, order->planes);
+        last.method = order->method;
+    }
+
+    /// Of an order that needs no relations, to hold it against them all the same.
+    void connect() {
+        if (!connected->adjacency.neighbours.empty()) return;
+        connected = orderOf(mesh, OrderMethod::Graph, Use::Whole, memo);
+        relations.emplace(connected->adjacency, connected->planes);
+    }
+};
+
+VisibilitySorter::VisibilitySorter(const mesh::ScalarMesh& mesh, OrderMethod method, Use use, MeshMemo* memo)
+    : state_(std::make_unique<State>(mesh, method, use, memo)) {}
 VisibilitySorter::~VisibilitySorter() = default;
+VisibilitySorter::VisibilitySorter(VisibilitySorter&&) noexcept = default;
+VisibilitySorter& VisibilitySorter::operator=(VisibilitySorter&&) noexcept = default;
 
 const std::string& VisibilitySorter::method() const {
-    return state_->method;
+    return state_->order->method;
 }
 const OrderKeys& VisibilitySorter::keys() const {
-    return state_->keys;
+    return state_->order->keys;
 }
 const mesh::Adjacency& VisibilitySorter::adjacency() const {
-    return state_->adjacency;
+    return state_->order->adjacency;
 }
 std::uint64_t VisibilitySorter::failingFaces() const {
-    return state_->failingFaces;
+    return state_->order->failingFaces;
+}
+
+void VisibilitySorter::takeOver(VisibilitySorter&& previous) {
+    if (previous.state_->order != state_->order) return;
+    state_->last = std::move(previous.state_->last);
+    state_->lastFrame = previous.state_->lastFrame;
 }
 
 namespace {
@@ -172,35 +207,35 @@ bool sameView(const CameraFrame& a, const CameraFrame& b) {
 
 void VisibilitySorter::State::seeGaps(const CellProjector& projector) {
     last.doubtfulPixels.clear();
-    if (boundary.empty()) return;
-    Reentry reentry = findReentry(mesh, boundary, projector.frame(), projector.points());
+    if (connected->boundary.empty()) return;
+    Reentry reentry = findReentry(mesh, connected->boundary, projector.frame(), projector.points());
     last.doubtfulPixels = std::move(reentry.doubtfulPixels);
-    relations.setGaps(std::move(reentry.edges));
+    relations->setGaps(std::move(reentry.edges));
 }
 
 /// The order by keys, by the last frame's order repaired, or by the relations alone: the first that keeps every
 /// relation. Which pixels a cycle leaves in doubt is told by the relations that the order breaks.
 void VisibilitySorter::State::findOrder(const CellProjector& projector) {
     const CameraFrame& frame = projector.frame();
-    relations.see(projector);
+    relations->see(projector);
     seeGaps(projector);
     const bool hasLast = !last.frontToBack.empty() && last.cyclicCells == 0;
     last.cyclicCells = 0;
-    if (hasLast && relations.mostlyHold(last.places)) {
-        const std::vector<CellPair> wrong = relations.violations(last.places);
+    if (hasLast && relations->mostlyHold(last.places)) {
+        const std::vector<CellPair> wrong = relations->violations(last.places);
         last.upkeep = wrong.empty() ? "kept" : "repaired";
         if (wrong.empty()) return;
-        if (keys.empty() && repairOrder(relations, wrong, last.frontToBack, last.places)) return;
+        if (order->keys.empty() && repairOrder(*relations, wrong, last.frontToBack, last.places)) return;
     }
     last.upkeep = "sorted";
-    if (!keys.empty()) {
-        last.frontToBack = sortedByKeys(keys, frame);
+    if (!order->keys.empty()) {
+        last.frontToBack = sortedByKeys(order->keys, frame);
         invert(last.frontToBack, last.places);
-        if (relations.violations(last.places).empty()) return;  // else keys rounded, or the eye is far away
+        if (relations->violations(last.places).empty()) return;  // else keys rounded, or the eye is far away
     }
-    sortByRelations(relations, mesh, frame, nearer, last);
+    sortByRelations(*relations, mesh, frame, nearer, last);
     invert(last.frontToBack, last.places);
-    if (last.cyclicCells > 0) doubtPairs(relations.violations(last.places), projector, frame, last.doubtfulPixels);
+    if (last.cyclicCells > 0) doubtPairs(relations->violations(last.places), projector, frame, last.doubtfulPixels);
 }
 
 const VisibilityOrder& VisibilitySorter::sort(const CameraFrame& frame) {
@@ -211,8 +246,8 @@ const VisibilityOrder& VisibilitySorter::sort(const CellProjector& projector) {
     State& state = *state_;
     const CameraFrame& frame = projector.frame();
     if (!state.lastFrame || !sameView(*state.lastFrame, frame)) {
-        if (state.method == "centroid") {
-            state.last.frontToBack = sortedByKeys(state.keys, frame);
+        if (state.order->method == "centroid") {
+            state.last.frontToBack = sortedByKeys(state.order->keys, frame);
             invert(state.last.frontToBack, state.last.places);
         } else {
             state.findOrder(projector);
@@ -227,11 +262,11 @@ const VisibilityOrder& VisibilitySorter::sort(const CellProjector& projector) {
 std::vector<std::uint32_t> VisibilitySorter::pixelsOutOfOrder(const CellProjector& projector) {
     State& state = *state_;
     sort(projector);
-    if (state.adjacency.neighbours.empty()) state.connect();
-    state.relations.see(projector);
+    state.connect();
+    state.relations->see(projector);
     state.seeGaps(projector);
     std::vector<std::uint32_t> pixels = std::exchange(state.last.doubtfulPixels, {});
-    doubtPairs(state.relations.violations(state.last.places), projector, projector.frame(), pixels);
+    doubtPairs(state.relations->violations(state.last.places), projector, projector.frame(), pixels);
     return pixels;
 }
 

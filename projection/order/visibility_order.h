@@ -34,9 +34,12 @@ public:
     /// What the owner does with keys: sort by itself what survives culling, or have whole meshes sorted here.
     enum class Use { Keys, Whole };
 
+    /// `memo`: where what depends on points and cells alone is kept, for other sorters too.
     explicit VisibilitySorter(const mesh::ScalarMesh& mesh, OrderMethod method = OrderMethod::Auto,
-                              Use use = Use::Whole);
+                              Use use = Use::Whole, MeshMemo* memo = nullptr);
     ~VisibilitySorter();
+    VisibilitySorter(VisibilitySorter&&) noexcept;
+    VisibilitySorter& operator=(VisibilitySorter&&) noexcept;
 
     /// "power", "mpvo", "mpvo+reentry", "centroid".
     const std::string& method() const;
@@ -59,6 +62,9 @@ public:
     /// Of an order by centroids, to tell what it spoils: the pixels in which two cells that follow one another along a
     /// ray may stand the wrong way round, a superset of those that do; ascending.
     std::vector<std::uint32_t> pixelsOutOfOrder(const CellProjector& projector);
+
+    /// Goes on with the last order of a sorter of the same points and cells.
+    void takeOver(VisibilitySorter&& previous);
 
 private:
     struct State;

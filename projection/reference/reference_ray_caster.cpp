@@ -47,6 +47,7 @@ struct ReferenceRayCaster::Pass {
     const CameraFrame frame;
     const DepthRange depths;
     const PixelMaps* const maps;
+    const FrameControl* const control;
     Image& image;
     WantedPixels wanted;
     std::vector<glm::dvec3> points;  // camera space: pixels·depth (or pixels when orthographic) twice, and depth
@@ -58,6 +59,7 @@ struct ReferenceRayCaster::Pass {
           frame(cameraFrame(view.camera)),
           depths(depthRange(c.scene_.mesh->bounds, view.camera)),
           maps(view.maps),
+          control(view.control),
           image(target),
           met(c.scene_.mesh->cells.size()) {
         checkPixelMaps(view);
@@ -170,6 +172,7 @@ struct ReferenceRayCaster::Pass {
     }
 
     void renderPixel(int x, int y, std::span<const mesh::CellIndex> cells) {
+        checkStop(control);
         const Ray ray = pixelRay(frame, x + rayShiftX, y + rayShiftY);
         const RayFrame rayFrame(ray);
         std::vector<RaySegment> segments;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
+#include <tbb/task_arena.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -388,12 +389,12 @@ TEST(CpuEngine, KeepsListsWhileTheCameraStays) {
 
 TEST(CpuEngine, ThreadsDoNotChangeABit) {
     for (const char* function : {"smooth", "peaks", "constant"}) {
-        Scene scene = fieldScene("bucky", function, Mode::Standard, 14);
+        const Scene scene = fieldScene("bucky", function, Mode::Standard, 14);
         const Camera camera = wholeView(*scene.mesh, 150, 110);
         std::vector<Image> images;
         for (int threads : {1, 2, 5}) {
-            scene.settings.threads = threads;
-            images.push_back(cpuImage(scene, camera));
+            tbb::task_arena arena(threads);
+            images.push_back(arena.execute([&] { return cpuImage(scene, camera); }));
         }
         EXPECT_TRUE(images[0].pixels == images[1].pixels);
         EXPECT_TRUE(images[0].pixels == images[2].pixels);

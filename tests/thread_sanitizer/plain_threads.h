@@ -151,6 +151,12 @@ public:
     int max_concurrency() const { return plain::threads; }
 };
 
+namespace this_task_arena {
+inline int max_concurrency() {
+    return plain::threads;
+}
+}  // namespace this_task_arena
+
 class task_group {
 public:
     ~task_group() { wait(); }

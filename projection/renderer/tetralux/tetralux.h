@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file
+/// Tetralux as a library: a Renderer keeps a mesh, a field, a transfer function with light and cuts, and draws them
+/// before any camera. Each of these is made again only when it, or one above it, has changed:
+///
+///     Mesh  →  Field  →  TransferFunction, lights, cuts  →  Camera
+///
+///     auto mesh = tetralux::Mesh::fromTetrahedra(xyz, cells);
+///     tetralux::Renderer renderer(mesh);
+///     renderer.setField(tetralux::Field::onPoints(values));
+///     renderer.setTransferFunction(tetralux::TransferFunction::preset("viridis"));
+///     std::vector<float> rgba(4 * 640 * 480);
+///     renderer.render(tetralux::cameraHolding(mesh->bounds(), 640, 480), {rgba.data(), 640, 480, 4 * 640});
+///
+/// The library does not print, start processes, read the environment, or take more threads than it was given.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include <tetralux/appearance.h>
+#include <tetralux/error.h>
+#include <tetralux/mesh.h>
+
+namespace tetralux {
+
+/// Right-handed; the picture's size comes with the ImageView. Pixel (x, y), row 0 at the top, is seen by the ray
+/// through its centre. Only what lies before the eye (orthographic: before the plane through it) is seen.
+struct Camera {
+    Vector eye{0, 0, 1}, target{0, 0, 0}, up{0, 1, 0};
+    double fovDegrees = 30;         ///< vertical
+    double orthographicHeight = 0;  ///< > 0: orthographic, so many mesh units over the picture's height
+    /// Where the picture's middle lies beside the optical axis, in half widths to the right and half heights up, as
+    /// VTK's window centre has it. For stereo pairs and walls of displays.
+    std::array<double, 2> windowCentre{0, 0};
+};
+
+/// A three-quarter view that holds the whole box, for a picture of that shape.
+Camera cameraHolding(const BoundingBox& bounds, int width, int height);
+
+/// The caller's memory: linear RGBA, premultiplied by alpha, over nothing; the top row first.
+struct ImageView {
+    float* rgba = nullptr;
+    int width = 0, height = 0;
+    std::ptrdiff_t floatsPerRow = 0;  ///< 0: 4 · width
+};
+
+/// Which part of a larger picture the ImageView is: its left upper pixel, and the size of the whole. 0: all of it.
+struct ImageTile {
+    int left = 0, top = 0, wholeWidth = 0, wholeHeight = 0;
+};
+
+/// Only what lies within the box is drawn, every ray cut at it exactly. An empty box (low ≥ high): everything.
+struct ClipBox {
+    Vector low{}, high{};
+};
+
+struct Control {
+    std::stop_token stop;                  ///< a frame ends within some 20 ms of the request
+    std::function<void(double)> progress;  ///< share done, 0 … 1; called by the thread that renders
+    double budgetMilliseconds = 0;         ///< > 0: a coarser picture rather than a later one
+    /// width × height of the ImageView, top row first: the volume ends at this distance along the ray from the eye
+    /// (orthographic: from the eye's plane), mesh units; infinite where nothing stands. Opaque geometry of the host.
+    const float* depthLimit = nullptr;
+    ImageTile tile{};
+    ClipBox region{};
+};
+
+struct FrameResult {
+    bool complete = false;  ///< false: it was stopped, and the picture is transparent
+    double milliseconds = 0;
+    std::uint64_t cellsDrawn = 0;
+    std::map<std::string, std::uint64_t> cellsSkipped;  ///< by reason
+    std::uint64_t pixelsRepaired = 0;                   ///< composed by the exact reference
+    std::uint64_t pixelsWrong = 0;                      ///< that nothing vouches for and nothing repaired
+    std::map<std::string, double> stageMilliseconds;
+    int drawnWidth = 0, drawnHeight = 0;  ///< less than the picture's where a budget asked for it
+};
+
+/// How far a picture is from the exact one, by pixels computed again in double precision.
+struct Verification {
+    std::size_t pixels = 0;
+    double rmse = 0, rmseBound = 0;  ///< over RGBA; the bound is a 95 % one
+    double max = 0;
+    double unseenShare = 0;  ///< with 95 % confidence no more than this share of the pixels differs by more than max
+};
+
+/// What one ray meets, nearest first.
+struct PixelProbe {
+    struct Segment {
+        double begin, end;              ///< distance from the eye (orthographic: its plane), mesh units
+        double scalarBegin, scalarEnd;  ///< there
+        double alpha;                   ///< of the segment alone
+    };
+    std::vector<Segment> segments;
+    bool hit = false;     ///< whether anything shows; what follows is of where it first does
+    double distance = 0;  ///< from the eye
+    Vector position{};
+    double scalar = 0;
+};
+
+struct RendererOptions {
+    std::string engine = "auto";   ///< a name of engines(), or auto
+    std::string context = "auto";  ///< of OpenGL: auto, egl, osmesa
+    int threads = 0;               ///< 0: as many as the machine has; all parallel work keeps to it
+    /// Instead of threads: runs the work that it is given within the host's oneTBB arena and returns when that is done,
+    /// [&arena](const std::function<void()>& work) { arena.execute(work); }
+    std::function<void(const std::function<void()>&)> arena{};
+};
+
+/// One thread at a time; several may share a Mesh, each in a thread of its own. Setters only note what they are given:
+/// render() makes what it needs. \throws Error from every member.
+class Renderer {
+public:
+    explicit Renderer(std::shared_ptr<const Mesh> mesh, RendererOptions options = {});
+    ~Renderer();
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+
+    void setField(Field field);                           ///< needed before the first frame
+    void setTransferFunction(TransferFunction function);  ///< a default one that shows the mesh without
+    void setMode(Mode mode);
+    void setLighting(Lighting lighting);
+    void setSilhouettes(Silhouettes silhouettes);
+    /// What lies within `layer` behind a cut (mesh units; 1/200 of the mesh's diagonal where nothing is said) is lit by
+    /// the cut's normal.
+    void setCuts(std::vector<Cut> cuts, std::optional<double> layer = {});
+    void setSlices(std::vector<Slice> slices);
+    void setSurfaces(std::vector<Surface> surfaces);
+
+    FrameResult render(const Camera& camera, ImageView image, const Control& control = {});
+
+    /// Computes `pixels` pixels of the picture again, which must be what render() made last with this camera.
+    Verification verify(const Camera& camera, ImageView image, std::size_t pixels);
+
+    /// What the ray through pixel (x, y) of a picture of the last frame's size meets.
+    PixelProbe probe(const Camera& camera, int x, int y);
+
+    std::string engine() const;    ///< that draws: "cpu", "gl", "reference"
+    std::string renderer() const;  ///< what does the work: instruction set and threads, or OpenGL's name
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+struct EngineInfo {
+    std::string name;
+    bool available = false;
+    std::string whyNot;  ///< where it is not
+};
+
+/// The engines of this build, and whether this machine can run them.
+std::vector<EngineInfo> engines();
+
+}  // namespace tetralux

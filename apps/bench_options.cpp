@@ -21,6 +21,8 @@ namespace tetralux::apps {
 
 namespace {
 
+using Unit = projection::AdaptiveSettings::Unit;
+
 /// An option that takes a list with commas, each item by `parse(option, text)`.
 template <class Item>
 CLI::Option* addList(CLI::App& command, const std::string& name, std::vector<Item>& items,
@@ -68,6 +70,32 @@ bool parseSwitch(const std::string& option, const std::string& text) {
     if (text != "on" && text != "off")
         throw std::runtime_error(fmt::format("{}: '{}' is neither on nor off; give one of them or both", option, text));
     return text == "on";
+}
+
+std::optional<Unit> parseAdaptive(const std::string& option, const std::string& text) {
+    if (text == "off") return std::nullopt;
+    if (text == "cells") return Unit::Cells;
+    if (text == "length") return Unit::Length;
+    throw std::runtime_error(fmt::format("{}: there is no '{}'; take some of off, cells, length", option, text));
+}
+
+int parseSamples(const std::string& option, const std::string& text) {
+    const int samples = parseCount(option, text);
+    if (samples < 1 || samples > 64)
+        throw std::runtime_error(fmt::format("{}: {} rays per pixel will not do; give 1 to 64", option, text));
+    return samples;
+}
+
+NamedMode namedMode(projection::Mode mode, bool silhouette, const std::optional<Unit>& unit, int samples) {
+    NamedMode named{modeName(mode), mode, silhouette};
+    if (silhouette) named.name += " silhouettes";
+    if (unit) {
+        named.adaptive.emplace().unit = *unit;
+        named.name += *unit == Unit::Cells ? " adaptive cells" : " adaptive length";
+    }
+    named.samples = samples;
+    if (samples > 1) named.name += fmt::format(" {} samples", samples);
+    return named;
 }
 
 bool given(const CLI::App& command, const std::string& option) {
@@ -195,6 +223,10 @@ void addBenchOptions(CLI::App& command, BenchOptions& options) {
                               fmt::format("{} (default standard)", modeNames()), "MODE,…");
     addList<bool>(command, "--silhouette", options.silhouettes, parseSwitch,
                   "on, off: silhouette enhancement (default off)", "on,off");
+    addList<std::optional<projection::AdaptiveSettings::Unit>>(
+        command, "--adaptive", options.adaptive, parseAdaptive,
+        "off, cells, length: locally adaptive opacity (default off)", "off,cells,length");
+    addList<int>(command, "--samples", options.samples, parseSamples, "rays per pixel (default 1)", "N,…");
     addList<std::string>(command, "--engines", options.engines, sameText,
                          fmt::format("{}; gl or vtk for all of that kind (default all but the reference)",
                                      fmt::join(knownNames(), ", ")),
@@ -251,7 +283,9 @@ BenchPlan benchPlan(const BenchOptions& options) {
     plan.transferFunctions = options.transferFunctions;
     for (const projection::Mode mode : options.modes)
         for (const bool silhouette : options.silhouettes)
-            plan.modes.push_back({modeName(mode) + (silhouette ? " silhouettes" : ""), mode, silhouette});
+            for (const auto& unit : options.adaptive)
+                for (const int samples : options.samples)
+                    plan.modes.push_back(namedMode(mode, silhouette, unit, samples));
     plan.engines = chooseEngines(options);
     plan.frames = options.plan;
     plan.frames.judged = std::min(plan.frames.judged, plan.frames.frames);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct BenchOptions {
     std::vector<double> tableErrors{0.0};
     std::vector<projection::OrderMethod> orders{projection::OrderMethod::Auto};
     std::vector<bool> silhouettes{false};
+    std::vector<std::optional<projection::AdaptiveSettings::Unit>> adaptive{std::nullopt};
+    std::vector<int> samples{1};
     std::vector<bool> everyNode{false}, skipInvisible{true}, earlyTermination{true};
     FramePlan plan;
     std::string csv, json;

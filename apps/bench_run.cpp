@@ -35,6 +35,8 @@ public:
                                 .transferFunction = benchTransferFunction(transferFunction, *mesh_, mode.mode),
                                 .settings = {.mode = mode.mode, .shading = {}, .adaptive = {}, .table = {}}};
         scene.settings.shading.silhouette = mode.silhouette;
+        scene.settings.adaptive = mode.adaptive;
+        scene.settings.samples = mode.samples;
         std::vector<BenchSubject> subjects;
         for (const glm::ivec2& size : plan_.sizes)
             subjects.push_back({source_, mesh_->cells.size(), size.x, size.y, transferFunction, mode.name});
@@ -44,7 +46,7 @@ public:
             references.push_back(judge(scene, subject, plan_.frames));
         }
         std::vector<BenchRow> measured = drawWithOurs(scene, subjects, references);
-        if (mode.mode == projection::Mode::Standard && !mode.silhouette)
+        if (mode.mode == projection::Mode::Standard && !mode.silhouette && !mode.adaptive && mode.samples == 1)
             drawWithVtk(scene, subjects, references, measured);
         for (std::size_t i = 0; i < subjects.size(); ++i) {
             if (plan_.engines.reference) rows.push_back(references[i].row);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct NamedMode {
     std::string name;
     projection::Mode mode = projection::Mode::Standard;
     bool silhouette = false;
+    std::optional<projection::AdaptiveSettings> adaptive = {};
+    int samples = 1;  ///< per pixel
 };
 
 /// The engines asked for, with every table size and thread count asked for.

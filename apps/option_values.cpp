@@ -32,7 +32,8 @@ constexpr Named<Mode> modes[] = {{Mode::Standard, "standard"},
                                  {Mode::Emission, "emission"},
                                  {Mode::Absorption, "absorption"},
                                  {Mode::FirstHit, "first-hit"},
-                                 {Mode::Depth, "depth"}};
+                                 {Mode::Depth, "depth"},
+                                 {Mode::Contributions, "contributions"}};
 constexpr Named<OrderMethod> orders[] = {
     {OrderMethod::Auto, "auto"}, {OrderMethod::Graph, "graph"}, {OrderMethod::Centroid, "centroid"}};
 

@@ -87,6 +87,10 @@ void addShape(CLI::App& command, RenderOptions& options) {
 
 void addCameraOptions(CLI::App& command, RenderOptions& options) {
     addParsed(command, "--size", options.size, parseSize, "pixels, 512x512", "WxH");
+    addNumber<int>(
+        command, "--samples", options.settings.samples, [](double value) { return value >= 1.0 && value <= 64.0; },
+        "a whole number from 1 to 64",
+        "anti-aliasing: so many rays per pixel, on a regular grid (the next square number of them), are averaged");
     addParsed(command, "--eye", options.eye, parseVector, "where from; default: a view that holds the mesh", "x,y,z");
     addParsed(command, "--target", options.target, parseVector, "where to; default: the mesh's centre", "x,y,z");
     addParsed(command, "--up", options.up, parseVector, "what is up; default: 0,1,0", "x,y,z");

@@ -7,6 +7,7 @@
 
 #include <apps/option_values.h>
 #include <apps/report_text.h>
+#include <projection/frame/sampled_engine.h>
 
 namespace tetralux::apps {
 
@@ -124,12 +125,14 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
         repaired += frame.pixelsRepaired;
         wrong += frame.pixelsWrong;
     }
+    const int perAxis = projection::samplesPerAxis(options.settings.samples);
     json report = {
         {"tetralux", TETRALUX_VERSION},
         {"mesh", options.source},
         {"scalar", {{"name", record.fieldName}, {"min", record.scalarMin}, {"max", record.scalarMax}}},
         {"mode", modeName(options.settings.mode)},
         {"size", {record.camera.width, record.camera.height}},
+        {"samples", perAxis * perAxis},
         {"camera", cameraJson(record.camera)},
         {"engine", engine.name()},
         {"renderer", engine.renderer()},
@@ -155,6 +158,7 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
         {"pixels", {{"repaired", repaired}, {"wrong", wrong}}},
         {"peak_memory_bytes", peakMemoryBytes()},
     };
+    if (record.mostContributions) report["contributions"] = {{"most", *record.mostContributions}};
     if (!first.dataPath.empty()) report["gl"] = glJson(record);
     if (record.verification) report["verification"] = verificationJson(*record.verification);
     if (options.maxError) {

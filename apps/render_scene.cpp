@@ -77,7 +77,8 @@ SceneRenderer::SceneRenderer(const RenderOptions& options)
     : engineOptions_(options.engine),
       annotation_(options.annotation),
       background_(options.background.value_or(ownBackground(options.settings.mode))),
-      verifiedPixels_(options.verifiedPixels) {
+      verifiedPixels_(options.verifiedPixels),
+      keepsNumbers_(projection::holdsNumbers(options.output)) {
     readScene(options);
     const Stopwatch watch;
     record_.camera = cameraFor(options, scene_.mesh->bounds);
@@ -154,6 +155,15 @@ void SceneRenderer::verify(const projection::Image& image, const projection::Vie
     if (!record_.verification || !(found.rmseBound <= record_.verification->rmseBound)) record_.verification = found;
 }
 
+/// The map of contributions holds their numbers; where a file cannot, it shows them as shares of the largest.
+void SceneRenderer::showCounts(projection::Image& image) {
+    float most = 0.0f;
+    for (const glm::vec4& pixel : image.pixels) most = std::max(most, pixel.x);
+    record_.mostContributions = std::max(record_.mostContributions.value_or(0.0f), most);
+    if (keepsNumbers_ || !(most > 0.0f)) return;
+    for (glm::vec4& pixel : image.pixels) pixel = glm::vec4(glm::vec3(pixel) / most, pixel.a);
+}
+
 projection::Image SceneRenderer::render(double turn) {
     const projection::Camera camera =
         turn == 0.0 ? record_.camera : projection::orbited(record_.camera, 2.0 * std::numbers::pi * turn);
@@ -163,6 +173,7 @@ projection::Image SceneRenderer::render(double turn) {
     report.frameMilliseconds = watch.milliseconds();
     if (verifiedPixels_ > 0) verify(image, {camera, report.maps.get()});
     report.maps.reset();  // a picture's worth of memory
+    if (scene_.settings.mode == projection::Mode::Contributions) showCounts(image);
     record_.frames.push_back(std::move(report));
     return finished(std::move(image), camera);
 }

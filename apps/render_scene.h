@@ -33,6 +33,7 @@ struct RenderRecord {
     std::vector<projection::FrameReport> frames;
     std::optional<projection::Verification> verification;  ///< of the frame with the largest bound, if asked for
     std::optional<projection::Preview> preview;            ///< if asked for, its picture moved away
+    std::optional<float> mostContributions;  ///< of any pixel of any frame, where the picture shows their number
 };
 
 class SceneRenderer {
@@ -54,6 +55,7 @@ public:
 private:
     void readScene(const RenderOptions& options);
     void checkInterfaces(const RenderOptions& options);
+    void showCounts(projection::Image& image);
     void verify(const projection::Image& image, const projection::View& view);
 
     /// With annotation and background.
@@ -65,6 +67,7 @@ private:
     AnnotatedScene annotated_;
     std::optional<glm::vec3> background_;
     int verifiedPixels_ = 0;
+    bool keepsNumbers_ = false;  ///< whether the file holds numbers beyond 1
     std::unique_ptr<projection::Engine> engine_;
     RenderRecord record_;
 };

@@ -25,9 +25,6 @@ using projection::Classification;
 using projection::HalfSpace;
 using projection::Mode;
 
-/// τ_max of one cell; RenderSettings' own default is per diagonal.
-constexpr double mostPerCell = 0.1;
-
 /// Finite numbers with commas between them, as many as `Count`.
 template <std::size_t Count>
 std::array<double, Count> parseNumbers(const std::string& option, const std::string& text, const char* form) {
@@ -110,8 +107,8 @@ constexpr std::array classifications{Named<Classification>{"preintegrated", Clas
                                      Named<Classification>{"post", Classification::Post},
                                      Named<Classification>{"post-linear", Classification::PostLinear},
                                      Named<Classification>{"pre", Classification::Pre}};
-constexpr std::array amounts{Named<AdaptiveSettings::Amount>{"cells", AdaptiveSettings::Amount::Cells},
-                             Named<AdaptiveSettings::Amount>{"length", AdaptiveSettings::Amount::Length}};
+constexpr std::array units{Named<AdaptiveSettings::Unit>{"cells", AdaptiveSettings::Unit::Cells},
+                           Named<AdaptiveSettings::Unit>{"length", AdaptiveSettings::Unit::Length}};
 constexpr std::array filters{Named<AdaptiveSettings::Filter>{"none", AdaptiveSettings::Filter::None},
                              Named<AdaptiveSettings::Filter>{"gaussian", AdaptiveSettings::Filter::Gaussian},
                              Named<AdaptiveSettings::Filter>{"2x", AdaptiveSettings::Filter::Bilinear2},
@@ -135,33 +132,30 @@ void addClip(CLI::App& command, const char* name, const char* form, ParseClip pa
 
 void addAdaptiveOptions(CLI::App& command, ShapeOptions& options) {
     addParsed(
-        command, "--adaptive", options.adaptive.amount,
+        command, "--adaptive", options.adaptive.unit,
         [&options](const std::string& option, const std::string& text) {
             options.adaptiveOn = true;
-            return chosen(option, text, amounts);
+            return chosen(option, text, units);
         },
-        "opacity of each pixel by how much lies along its ray: relevant cells or length", "cells|length");
-    addNumber<double>(command, "--adaptive-gain", options.adaptive.gain, positive, "a number above 0",
-                      "opacity is so many over the amount, 1");
-    command.add_option_function<double>(
-        "--adaptive-max",
-        [&options](double value) {
-            if (!(value > 0.0) || !std::isfinite(value))
-                throw std::runtime_error(fmt::format("--adaptive-max: {} will not do; give a number above 0", value));
-            options.adaptive.most = value;
-            options.mostGiven = true;
-        },
-        "its bound: per cell, 0.1, or per diagonal of the mesh, 10");
+        "opacity of each pixel by how many relevant cells, or pieces of relevant length, lie along its ray",
+        "cells|length");
+    addNumber<double>(
+        command, "--adaptive-max", options.adaptive.most, [](double value) { return value > 0.0 && value <= 1.0; },
+        "an opacity above 0, up to 1", "the most opacity of one cell or piece, 0.12");
+    addNumber<double>(command, "--adaptive-step", options.adaptive.pieceLength, positive, "a length above 0",
+                      "length of a piece (over |ds|: of the scalar); the mean of the mesh's edges");
     addParsed(
         command, "--adaptive-filter", options.adaptive.filter,
         [](const std::string& option, const std::string& text) { return chosen(option, text, filters); },
-        "how the amount is smoothed, gaussian", "none|gaussian|2x|4x");
+        "how the map of contributions is smoothed: not (none), gaussian, or measured at a half or a quarter of the "
+        "size (2x, 4x)",
+        "none|gaussian|2x|4x");
     addNumber<double>(command, "--adaptive-sigma", options.adaptive.sigma, positive, "pixels, above 0",
                       "width of the gaussian in pixels, 4");
     addNumber<double>(
         command, "--adaptive-threshold", options.adaptive.threshold,
-        [](double value) { return value >= 0.0 && value <= 1.0; }, "a share from 0 to 1",
-        "share of the largest extinction from which on something is relevant, 1/256");
+        [](double value) { return value >= 0.0 && value < 1.0; }, "a share from 0 to below 1",
+        "share of the largest extinction above which something is relevant, 0");
 }
 
 }  // namespace
@@ -209,20 +203,25 @@ void finishShapeOptions(const ShapeOptions& options, projection::RenderSettings&
         throw std::runtime_error(
             "--depth-color: this mode's colours lie at no distance; take standard, scale-invariant, first-hit, "
             "additive, additive-scale-invariant or emission");
-    if (settings.classification != Classification::Preintegrated && !integrates && mode != Mode::FirstHit)
+    const bool classifies = integrates || projection::addsUp(mode) || mode == Mode::FirstHit;
+    const bool counts = options.adaptiveOn || mode == Mode::Contributions;
+    if (settings.classification != Classification::Preintegrated && !classifies && !counts)
         throw std::runtime_error(
-            "--classification: only the modes standard, scale-invariant and first-hit classify segments; leave it out");
+            "--classification: only standard, scale-invariant, first-hit and the modes that add up classify segments; "
+            "leave it out");
     if (settings.classification != Classification::Preintegrated && options.isosurfaces)
         throw std::runtime_error(
             "--classification: a sample does not meet isosurfaces; leave --isosurfaces out, or take preintegrated");
-    if (!options.adaptiveOn) return;
-    if (!integrates && !projection::addsUp(mode) && mode != Mode::Absorption)
+    if (!counts) return;
+    if (settings.classification == Classification::Pre)
+        throw std::runtime_error(
+            "--classification pre: what vertices show is relevant or not, with nothing between; take post with "
+            "--adaptive");
+    if (!integrates && !projection::addsUp(mode) && mode != Mode::Absorption && mode != Mode::Contributions)
         throw std::runtime_error(
             "--adaptive: this mode has no extinction; take standard, scale-invariant, additive, "
-            "additive-scale-invariant, emission or absorption");
+            "additive-scale-invariant, emission, absorption or contributions");
     settings.adaptive = options.adaptive;
-    if (!options.mostGiven && options.adaptive.amount == AdaptiveSettings::Amount::Cells)
-        settings.adaptive->most = mostPerCell;
 }
 
 std::vector<std::string> joinedOptionalValues(int argumentCount, char** arguments) {

@@ -24,7 +24,6 @@ struct ShapeOptions {
     std::optional<int> isosurfaces;  ///< so many instead of extinction
     projection::AdaptiveSettings adaptive;
     bool adaptiveOn = false;
-    bool mostGiven = false;  ///< of `adaptive`
 };
 
 /// Adds them to `command`; parsing fills `options` and, where they are settings of the picture, `settings`.

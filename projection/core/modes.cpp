@@ -8,7 +8,7 @@
 namespace tetralux::projection {
 
 preint::Integral integralOf(Mode mode) {
-    const bool overData = mode == Mode::ScaleInvariant || mode == Mode::DataAdditive || mode == Mode::DataContribution;
+    const bool overData = mode == Mode::ScaleInvariant || mode == Mode::DataAdditive;
     return overData ? preint::Integral::ScaleInvariant : preint::Integral::Standard;
 }
 
@@ -30,8 +30,7 @@ bool orderFree(Mode mode) {
         case Mode::DataAdditive:
         case Mode::Emission:
         case Mode::Absorption:
-        case Mode::Contribution:
-        case Mode::DataContribution:
+        case Mode::Contributions:
             return true;
     }
     return false;

@@ -25,12 +25,11 @@ enum class Mode {
     FirstHit,  ///< the colour of the first segment with α > 0, opaque
     Depth,     ///< grey, opaque: 1 at the nearest, 0 at the farthest end of the mesh's bounding sphere (depthRange),
                ///< linear in the distance along the ray to the first point with τ > 0 or an isosurface
-    Contribution,  ///< for adaptive opacity: red counts the cells with τ > 0 or a peak on the ray, green is ∫ τ dt
-    DataContribution  ///< the same with ∫ τ |ds|
+    Contributions  ///< grey: how many contributions locally adaptive opacity counts on the ray (adaptive_opacity.h),
+                   ///< opaque where there are any. Engines never see it
 };
 
-/// The integral that a mode's segments use: the scale-invariant one in ScaleInvariant, DataAdditive and
-/// DataContribution.
+/// The integral that a mode's segments use: the scale-invariant one in ScaleInvariant and DataAdditive.
 preint::Integral integralOf(Mode mode);
 
 /// Whether the light of segments adds up, hidden by nothing.
@@ -62,14 +61,24 @@ enum class Classification {
 
 /// Locally adaptive opacity: adaptive_opacity.h tells what each of these is.
 struct AdaptiveSettings {
-    enum class Amount { Cells, Length };
+    enum class Unit { Cells, Length };  ///< what one contribution is: a cell, or a piece of relevant length
     enum class Filter { None, Gaussian, Bilinear2, Bilinear4 };
-    Amount amount = Amount::Length;
-    Filter filter = Filter::Gaussian;
-    double sigma = 4.0;              ///< of the Gaussian, pixels
-    double gain = 1.0;               ///< τ₀ = gain/amount
-    double most = 10.0;              ///< τ_max: per diagonal (or range); of one cell with Amount::Cells
-    double threshold = 1.0 / 256.0;  ///< share of the largest extinction from which on scalars are relevant
+    Unit unit = Unit::Cells;
+    Filter filter = Filter::None;
+    double sigma = 4.0;        ///< of the Gaussian, pixels
+    double most = 0.12;        ///< τ_max
+    double threshold = 0.0;    ///< share of the largest extinction above which scalars are relevant, below 1
+    double pieceLength = 0.0;  ///< Δ, mesh units (units of the scalar over |ds|); 0: the mean of the mesh's edges
+};
+
+/// What adaptive opacity asks of an engine besides a transfer function; other pictures leave it alone.
+struct ContributionWeights {
+    /// A segment along which anything shows is one contribution whatever its length, each isosurface that it crosses
+    /// another: its optical depth is their number times the pixel's factor of extinction, its colour their mean.
+    bool perCell = false;
+    bool sums = false;  ///< in modes that add up: alpha is ∫ τ + Σ α₀ itself, not cut off at 1
+
+    bool any() const { return perCell || sums; }
 };
 
 }  // namespace tetralux::projection

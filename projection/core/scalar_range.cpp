@@ -30,6 +30,8 @@ Scene withScalarsInRange(const Scene& scene) {
             node.extinction = std::ldexp(node.extinction, -exponent);
     }
     for (auto& surface : function.isosurfaces) scaled(surface.value);
+    if (result.settings.adaptive && integralOf(scene.settings.mode) == preint::Integral::ScaleInvariant)
+        scaled(result.settings.adaptive->pieceLength);
     return result;
 }
 

@@ -27,9 +27,11 @@ enum class OrderMethod { Auto, Graph, Centroid };
 struct RenderSettings {
     Mode mode = Mode::Standard;
     OrderMethod order = OrderMethod::Auto;
+    int samples = 1;  ///< at least so many rays per pixel, whose colours are averaged (sampled_engine.h)
     shading::ShadingSettings shading;
     Classification classification = Classification::Preintegrated;  ///< of standard, scale-invariant and first-hit
     std::optional<AdaptiveSettings> adaptive;
+    ContributionWeights contributions{};
     double largestExtinctionScale = 0.0;  ///< of the pixel maps that views will bring; 0: they bring none
     preint::TableOptions table;
     static constexpr int threadsOfCaller = -1;

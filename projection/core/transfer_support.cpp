@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace tetralux::projection {
@@ -38,20 +39,38 @@ void append(std::vector<glm::dvec2>& support, double low, double high, bool join
 
 }  // namespace
 
-std::vector<glm::dvec2> extinctionSupport(const preint::TransferFunction& function) {
+namespace {
+
+/// `lowered(s)` is where an interval begins whose extinction jumps up at s.
+template <class Lowered>
+std::vector<glm::dvec2> supportOf(const preint::TransferFunction& function, Lowered lowered) {
     std::vector<glm::dvec2> support;
     const auto& nodes = function.extinction;
     if (nodes.empty()) return support;
-    const double nudge = 1e-7 * (nodes.back().scalar - nodes.front().scalar);
     if (nodes.front().extinction > 0) support.emplace_back(-infinity, nodes.front().scalar);
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
         const auto &low = nodes[i], &high = nodes[i + 1];
         if (low.scalar == high.scalar || (low.extinction <= 0 && high.extinction <= 0)) continue;
         const bool jumpsUp = low.extinction > 0 && function.extinctionAt(low.scalar) > 0 &&
                              (support.empty() || support.back().y != low.scalar);
-        append(support, jumpsUp ? low.scalar - nudge : low.scalar, high.scalar, low.extinction > 0);
+        append(support, jumpsUp ? lowered(low.scalar) : low.scalar, high.scalar, low.extinction > 0);
     }
     if (nodes.back().extinction > 0) append(support, nodes.back().scalar, infinity, true);
+    return support;
+}
+
+}  // namespace
+
+std::vector<glm::dvec2> extinctionSupport(const preint::TransferFunction& function) {
+    return supportOf(function, [](double scalar) { return std::nextafter(scalar, -infinity); });
+}
+
+std::vector<glm::vec2> floatExtinctionSupport(const preint::TransferFunction& function) {
+    const auto& nodes = function.extinction;
+    const double nudge = nodes.empty() ? 0.0 : 1e-7 * (nodes.back().scalar - nodes.front().scalar);
+    std::vector<glm::vec2> support;
+    for (const glm::dvec2& interval : supportOf(function, [&](double scalar) { return scalar - nudge; }))
+        support.push_back(glm::clamp(glm::vec2(interval), -3e38f, 3e38f));
     return support;
 }
 
@@ -72,9 +91,8 @@ namespace {
 
 /// Whether opacity below float's step may show: modes that take any for something, and what makes it larger.
 bool anyOpacityCounts(const RenderSettings& settings) {
-    return settings.mode == Mode::FirstHit || settings.mode == Mode::Depth || settings.mode == Mode::Contribution ||
-           settings.mode == Mode::DataContribution || settings.shading.silhouette ||
-           settings.shading.gradientOpacity > 0 || settings.largestExtinctionScale > 1.0;
+    return settings.mode == Mode::FirstHit || settings.mode == Mode::Depth || settings.contributions.any() ||
+           settings.shading.silhouette || settings.shading.gradientOpacity > 0 || settings.largestExtinctionScale > 1.0;
 }
 
 }  // namespace

@@ -18,8 +18,11 @@ namespace tetralux::projection {
 
 /// The open intervals of scalars (low, high) with extinction, ascending, disjoint; −∞ and ∞ where an outer node has
 /// extinction. A low end at which the extinction jumps up holds itself (the value there is that from above): it is
-/// moved down by 1e-7 of the nodes' range.
+/// moved down by the least step of double.
 std::vector<glm::dvec2> extinctionSupport(const preint::TransferFunction& function);
+
+/// The same for who compares floats: such ends are moved down by 1e-7 of the nodes' range.
+std::vector<glm::vec2> floatExtinctionSupport(const preint::TransferFunction& function);
 
 /// The least (x) and the largest (y) scalar of a cell.
 inline glm::dvec2 scalarRange(const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {

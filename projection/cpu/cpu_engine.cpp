@@ -177,15 +177,13 @@ TileKind CpuEngine::kind() const {
             return TileKind::Absorption;
         case Mode::Depth:
             return TileKind::Depth;
-        case Mode::Contribution:
-        case Mode::DataContribution:
-            return TileKind::Contribution;
         default:
             break;
     }
     // other classifications show no peaks, so that theirs do not count for one colour
     const bool plain = scene_.settings.classification == Classification::Preintegrated;
-    const bool oneColor = skips_.orderFree && plain && transfer_.constantColor();
+    const bool oneColor =
+        skips_.orderFree && plain && transfer_.constantColor() && !scene_.settings.contributions.perCell;
     // so do samples at the vertices: kernels without it do not know where in a cell a segment lies
     if (shading.needsGradient() || samplesVertices(scene_))
         return oneColor && quickDepth() ? TileKind::Absorption : TileKind::Shaded;
@@ -218,6 +216,7 @@ void CpuEngine::prepare() {
     frame_.ordered = ordered();
     frame_.classification = scene_.settings.classification;
     frame_.constantColor = scene_.settings.mode == Mode::Absorption ? glm::vec3(0) : glm::vec3(transfer_.color());
+    frame_.contributions = scene_.settings.contributions;
     frame_.emissionOnly = scene_.settings.mode == Mode::Emission;
     const bool everyScalarCounts =
         frame_.kind == TileKind::Mip || frame_.kind == TileKind::Minimum || frame_.kind == TileKind::Average;
@@ -288,7 +287,7 @@ void CpuEngine::setLimits(const View& view) {
     frame_.limits = mapped ? &limits_ : nullptr;
     const auto& shading = scene_.settings.shading;
     limited_ = mapped || frame_.classification != Classification::Preintegrated || frame_.kind == TileKind::Additive ||
-               frame_.kind == TileKind::Depth || frame_.kind == TileKind::Contribution ||
+               frame_.kind == TileKind::Depth || frame_.contributions.perCell ||
                (frame_.kind == TileKind::Absorption && shading.needsGradient() && !quickDepth());
     const DepthRange range = depthRange(mesh_.bounds, view.camera);
     frame_.greyOfZero = range.greyAt(0.0);

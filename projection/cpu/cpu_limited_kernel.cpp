@@ -42,8 +42,6 @@ void drawLimitedTileHere(const TileFrame& frame, int x0, int y0, std::span<const
             return drawLimitedAs<TileKind::Additive>(frame, x0, y0, entries, image, result);
         case TileKind::Depth:
             return drawLimitedAs<TileKind::Depth>(frame, x0, y0, entries, image, result);
-        case TileKind::Contribution:
-            return drawLimitedAs<TileKind::Contribution>(frame, x0, y0, entries, image, result);
     }
 }
 

@@ -4,6 +4,7 @@
 /// nothing. Included once per instruction set.
 #include <projection/cpu/cpu_shading.h>
 
+#include <projection/cpu/cpu_cell_rays.h>
 #include <projection/cpu/cpu_special_cell.h>
 #include <projection/cpu/cpu_tile.h>
 
@@ -61,13 +62,14 @@ struct ScaledSegmentSink : SegmentSink {
         t = t - ta;
         otherDepth = otherDepth + keep(crossed, real(peak.depth) * scale);
     }
-    /// One sample stands for the segment (post- and pre-classification).
-    HWY_INLINE void addSample(real sampleR, real sampleG, real sampleB, real depth) {
-        r = sampleR;
-        g = sampleG;
-        b = sampleB;
-        opacity = select(depth > real(0.0f), real(1.0f), real(0.0f));
-        smoothDepth = depth;
+    /// One colour stands for the segment: post- and pre-classification's sample, or the mean of what shows.
+    HWY_INLINE void setMean(real meanR, real meanG, real meanB, real smooth, real other) {
+        r = meanR;
+        g = meanG;
+        b = meanB;
+        opacity = select(smooth + other > real(0.0f), real(1.0f), real(0.0f));
+        smoothDepth = smooth;
+        otherDepth = other;
     }
 };
 
@@ -98,12 +100,38 @@ struct EmissionSink {
     HWY_INLINE void addDepth(real depth) { smoothDepth = smoothDepth + depth; }
 };
 
-/// Smooth depth of one segment and whether it crosses an isosurface.
+/// What ContributionWeights::perCell makes of one segment: the colours of its contributions, added up, and their
+/// number.
+struct CellContributions {
+    real r, g, b, count;
+};
+
+/// ∫ c τ, ∫ τ, and the isosurfaces that are crossed.
 struct ContributionSink {
-    static constexpr bool depthOnly = true;
-    real depth, peaks;
-    HWY_INLINE void addPeak(const TransferPeak&, mask crossed) { peaks = select(crossed, real(1.0f), peaks); }
-    HWY_INLINE void addDepth(real more) { depth = depth + more; }
+    static constexpr bool depthOnly = false, hides = false;
+    real r, g, b, smoothDepth;
+    CellContributions peaks;
+
+    HWY_INLINE ContributionSink() { r = g = b = smoothDepth = peaks.r = peaks.g = peaks.b = peaks.count = real(0.0f); }
+    HWY_INLINE void add(const TransferPiece& piece, real depth, real weighted) {
+        r += real(piece.color[0]) * depth + real(piece.colorSlope[0]) * weighted;
+        g += real(piece.color[1]) * depth + real(piece.colorSlope[1]) * weighted;
+        b += real(piece.color[2]) * depth + real(piece.colorSlope[2]) * weighted;
+    }
+    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) {
+        peaks.r += keep(crossed, real(peak.color[0]));
+        peaks.g += keep(crossed, real(peak.color[1]));
+        peaks.b += keep(crossed, real(peak.color[2]));
+        peaks.count += keep(crossed, real(1.0f));
+    }
+    HWY_INLINE void addDepth(real depth) { smoothDepth = smoothDepth + depth; }
+
+    HWY_INLINE CellContributions contributions() const {
+        const mask shows = smoothDepth > real(0.0f);
+        const real perDepth = keep(shows, real(1.0f) / select(shows, smoothDepth, real(1.0f)));
+        return {r * perDepth + peaks.r, g * perDepth + peaks.g, b * perDepth + peaks.b,
+                keep(shows, real(1.0f)) + peaks.count};
+    }
 };
 
 /// Extinction and colour at one scalar per pixel, from above at jumps.
@@ -141,6 +169,82 @@ HWY_INLINE Sample segmentSample(const TileFrame& frame, const CellBatch& batch, 
     const vec3 color = vectorAt(values, kept.sampleAt, weights);
     return {attributeAt(values, kept.sampleAt + 3, weights), color.x, color.y, color.z};
 }
+
+/// What segments show by classification, contributions and the pixels' factor of extinction (`scale`).
+template <bool Orthographic>
+struct ClassifiedSegments {
+    const TileFrame& frame;
+    const CellBatch& batch;
+    const Block& block;
+    std::size_t first, last;  ///< pieces
+    const Segments& segments;
+    real scale;
+
+    /// Path that extinction is per unit of.
+    HWY_INLINE real path() const {
+        return frame.scaleInvariant ? abs(segments.back - segments.front) : segments.length;
+    }
+
+    /// Either integral with scaled extinction is the standard one over another path.
+    template <class Sink>
+    HWY_INLINE void integrate(real factor, Sink& sink) const {
+        Segments scaled = segments;
+        scaled.length = keep(segments.live, factor * path());
+        addAlong<false>(*frame.transfer, first, last, scaled, sink);
+    }
+
+    HWY_INLINE Sample sample() const {
+        const auto middles = segmentMiddles<Orthographic>(block.dx, block.dy, block.in, block.out);
+        return segmentSample(frame, batch, block.j, middles, first, last, segments);
+    }
+
+    HWY_INLINE CellContributions contributions() const {
+        if (frame.classification != Classification::Preintegrated) {
+            const Sample taken = sample();
+            const mask shows = both(segments.live, taken.extinction * path() > real(0.0f));
+            return {keep(shows, taken.r), keep(shows, taken.g), keep(shows, taken.b), keep(shows, real(1.0f))};
+        }
+        ContributionSink sink;
+        integrate(real(1.0f), sink);
+        return sink.contributions();
+    }
+
+    /// What hides what lies behind it, before silhouettes and light.
+    HWY_INLINE void gather(ScaledSegmentSink& sink) const {
+        sink.scale = scale;
+        if (HWY_UNLIKELY(frame.contributions.perCell)) {
+            const CellContributions sum = contributions();
+            const real each = real(1.0f) / max(sum.count, real(1.0f));
+            return sink.setMean(each * sum.r, each * sum.g, each * sum.b, real(0.0f), sum.count * scale);
+        }
+        if (frame.classification == Classification::Preintegrated) return integrate(scale, sink);
+        const Sample taken = sample();
+        sink.setMean(taken.r, taken.g, taken.b, taken.extinction * (scale * path()), real(0.0f));
+    }
+
+    /// The same where nothing is hidden.
+    HWY_INLINE EmissionSink emission() const {
+        EmissionSink sink;
+        sink.r = sink.g = sink.b = sink.smoothDepth = sink.otherDepth = real(0.0f);
+        sink.scale = scale;
+        if (HWY_UNLIKELY(frame.contributions.perCell)) {
+            const CellContributions sum = contributions();
+            sink.r = sum.r * scale;
+            sink.g = sum.g * scale;
+            sink.b = sum.b * scale;
+            sink.otherDepth = sum.count * scale;
+        } else if (frame.classification == Classification::Preintegrated) {
+            integrate(scale, sink);
+        } else {
+            const Sample taken = sample();
+            sink.smoothDepth = taken.extinction * (scale * path());
+            sink.r = taken.r * sink.smoothDepth;
+            sink.g = taken.g * sink.smoothDepth;
+            sink.b = taken.b * sink.smoothDepth;
+        }
+        return sink;
+    }
+};
 
 /// Where along the segments (scalars) something first shows; `shown` tells where anything does.
 struct FirstShown {

@@ -42,9 +42,8 @@ enum class TileKind {
     Shaded,  ///< composite with silhouettes or light
     FirstHit,
     // by the kernel that also honours limits and other classifications only (drawLimitedTile)
-    Additive,     ///< light of all segments, none hidden
-    Depth,        ///< where along the ray something is first seen
-    Contribution  ///< cells and path that show
+    Additive,  ///< light of all segments, none hidden
+    Depth      ///< where along the ray something is first seen
 };
 
 /// Pixel maps (pixel_maps.h) in the terms of tiles, width·height each.
@@ -122,6 +121,7 @@ struct TileFrame {
     Classification classification = Classification::Preintegrated;
     glm::vec3 constantColor{0};  ///< Absorption: of all that is seen
     bool emissionOnly = false;   ///< Additive: alpha stays 0
+    ContributionWeights contributions{};
     double greyOfZero = 0,
            greyPerDistance = 0;  ///< grey of TileKind::Depth as a function of the distance, scene lengths
 };

@@ -34,7 +34,6 @@ inline std::size_t placeInTile(int x, int y) {
 /// - Average: Σ scalar·length in r, Σ length in t
 /// - Additive: colour r g b and depth t, summed
 /// - Depth: distance in r, t = 1 until then
-/// - Contribution: segments in r, depth in t
 struct TileBuffers {
     alignas(64) float r[tilePixels], g[tilePixels], b[tilePixels], t[tilePixels], last[tilePixels],
         lastScalar[tilePixels], rayLength[tilePixels],
@@ -78,12 +77,11 @@ glm::vec4 finishedPixel(const TileFrame& frame, const TileBuffers& px, std::size
         return glm::vec4{frame.constantColor.x * opacity, frame.constantColor.y * opacity,
                          frame.constantColor.z * opacity, opacity};
     } else if constexpr (Kind == TileKind::Additive) {
-        return glm::vec4{px.r[i], px.g[i], px.b[i], frame.emissionOnly ? 0.0f : std::min(px.t[i], 1.0f)};
+        const float sum = frame.contributions.sums ? px.t[i] : std::min(px.t[i], 1.0f);
+        return glm::vec4{px.r[i], px.g[i], px.b[i], frame.emissionOnly ? 0.0f : sum};
     } else if constexpr (Kind == TileKind::Depth) {
         const double grey = frame.greyOfZero + frame.greyPerDistance * static_cast<double>(px.r[i]);
         return px.t[i] == 0 ? glm::vec4(glm::vec3(static_cast<float>(grey)), 1.0f) : glm::vec4(0.0f);
-    } else if constexpr (Kind == TileKind::Contribution) {
-        return glm::vec4{px.r[i], px.t[i], 0.0f, 0.0f};
     } else {
         const bool extreme = Kind == TileKind::Mip || Kind == TileKind::Minimum;
         const bool met = extreme ? std::abs(px.t[i]) < -unset : px.t[i] > 0;

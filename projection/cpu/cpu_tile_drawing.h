@@ -73,8 +73,8 @@ public:
 private:
     static constexpr bool colors =
         Kind == TileKind::Composite || Kind == TileKind::Shaded || Kind == TileKind::FirstHit;
-    static constexpr bool integrates = colors || Kind == TileKind::Absorption || Kind == TileKind::Additive ||
-                                       Kind == TileKind::Depth || Kind == TileKind::Contribution;
+    static constexpr bool integrates =
+        colors || Kind == TileKind::Absorption || Kind == TileKind::Additive || Kind == TileKind::Depth;
     static constexpr bool usesNormals = look == Look::Lit || look == Look::Lamps || Kind == TileKind::Shaded ||
                                         Kind == TileKind::FirstHit || Kind == TileKind::Additive ||
                                         (Limited && Kind == TileKind::Absorption);
@@ -256,12 +256,6 @@ private:
             drawAdditive(block, t, first, last, segments);
         } else if constexpr (Kind == TileKind::Depth) {
             drawFirstShown(j, at, in, rayLength, t, first, last, segments);
-        } else if constexpr (Kind == TileKind::Contribution) {
-            ContributionSink sink{real(0.0f), real(0.0f)};
-            integrateScaled(first, last, segments, real(1.0f), sink);
-            const mask met = both(live, max(sink.depth, sink.peaks) > real(0.0f));
-            storeAt(loadAt(px_.r + at) + keep(met, real(1.0f)), px_.r + at);
-            storeAt(t + sink.depth, px_.t + at);
         } else if constexpr (Kind == TileKind::Mip) {
             storeAt(select(live, max(t, max(segments.front, segments.back)), t), px_.t + at);
         } else if constexpr (Kind == TileKind::Minimum) {
@@ -305,7 +299,7 @@ private:
         std::conditional_t<Limited, ScaledSegmentSink, SegmentSink> sink;
         sink.begin();
         if constexpr (Limited)
-            classify(block, first, last, segments, sink);
+            classified(block, first, last, segments).gather(sink);
         else
             integrate(first, last, segments, sink);
         const ShadedSegment shaded = shade(block, sink, segments);
@@ -386,41 +380,25 @@ private:
         in = min(in, rhoOfNearness(j, loadAt(limits_.nearest + at)));
     }
 
-    /// Either integral with scaled extinction is the standard one over another path.
-    template <class Sink>
-    HWY_INLINE void integrateScaled(std::size_t first, std::size_t last, const Segments& segments, real scale,
-                                    Sink& sink) const {
-        Segments scaled = segments;
-        scaled.length = scale * (frame_.scaleInvariant ? abs(segments.back - segments.front) : segments.length);
-        scaled.length = keep(segments.live, scaled.length);
-        integrate(first, last, scaled, sink);
-    }
-
-    HWY_INLINE void classify(const Block& block, std::size_t first, std::size_t last, const Segments& segments,
-                             ScaledSegmentSink& sink) const {
-        sink.scale = loadAt(limits_.scale + block.at);
-        if (frame_.classification == Classification::Preintegrated)
-            return integrateScaled(first, last, segments, sink.scale, sink);
-        const auto middles = segmentMiddles<Orthographic>(block.dx, block.dy, block.in, block.out);
-        const Sample sample = segmentSample(frame_, batch_, block.j, middles, first, last, segments);
-        const real path = frame_.scaleInvariant ? abs(segments.back - segments.front) : segments.length;
-        sink.addSample(sample.r, sample.g, sample.b, sample.extinction * (sink.scale * path));
+    HWY_INLINE ClassifiedSegments<Orthographic> classified(const Block& block, std::size_t first, std::size_t last,
+                                                           const Segments& segments) const {
+        return {frame_, batch_, block, first, last, segments, loadAt(limits_.scale + block.at)};
     }
 
     /// Absorption with all that changes depth.
     HWY_INLINE void drawDepth(const Block& block, real t, std::size_t first, std::size_t last,
                               const Segments& segments) {
         const std::size_t at = block.at;
-        if (!frame_.shading->needsGradient()) {
-            ScaledDepthSink sink{{t}, loadAt(limits_.scale + at)};
-            integrateScaled(first, last, segments, sink.scale, sink);
+        const auto shown = classified(block, first, last, segments);
+        if (!frame_.shading->needsGradient() && !frame_.contributions.perCell) {
+            ScaledDepthSink sink{{t}, shown.scale};
+            shown.integrate(shown.scale, sink);
             storeAt(sink.depth, px_.t + at);
             return;
         }
         ScaledSegmentSink sink;
         sink.begin();
-        sink.scale = loadAt(limits_.scale + at);
-        integrateScaled(first, last, segments, sink.scale, sink);
+        shown.gather(sink);
         const ShadedSegment shaded = shade(block, sink, segments);
         storeAt(t + keep(segments.live, shaded.depth), px_.t + at);
     }
@@ -429,10 +407,7 @@ private:
     HWY_INLINE void drawAdditive(const Block& block, real t, std::size_t first, std::size_t last,
                                  const Segments& segments) {
         const std::size_t at = block.at;
-        EmissionSink sink;
-        sink.r = sink.g = sink.b = sink.smoothDepth = sink.otherDepth = real(0.0f);
-        sink.scale = loadAt(limits_.scale + at);
-        integrateScaled(first, last, segments, sink.scale, sink);
+        const EmissionSink sink = classified(block, first, last, segments).emission();
         real r = sink.r, g = sink.g, b = sink.b, depth = sink.smoothDepth + sink.otherDepth;
         if (frame_.shading->needsGradient()) {
             SegmentSink whole;

@@ -84,7 +84,6 @@ void drawTileIn(const TileFrame& frame, int x0, int y0, std::span<const TileEntr
             return drawTileAs<TileKind::FirstHit, Orthographic, false, true>(frame, x0, y0, entries, image, result);
         case TileKind::Additive:
         case TileKind::Depth:
-        case TileKind::Contribution:
             break;  // drawLimitedTile
     }
 }

@@ -13,6 +13,7 @@
 #include <projection/cpu/cpu_engine.h>
 #include <projection/frame/adaptive_opacity.h>
 #include <projection/frame/engine_registry.h>
+#include <projection/frame/sampled_engine.h>
 #include <projection/frame/veiled_volume.h>
 #include <projection/frame/view_maps.h>
 #include <projection/gl/gl_engine.h>
@@ -79,7 +80,7 @@ std::unique_ptr<Engine> makeEngine(const Scene& scene, const EngineOptions& opti
 namespace {
 
 std::unique_ptr<Engine> makeEngineHere(const Scene& wanted, const EngineOptions& options) {
-    const Scene scene = withVertexLight(withScalarsInRange(wanted));
+    const Scene scene = sceneOfSamples(withVertexLight(withScalarsInRange(wanted)));
     const std::string name = options.engine != "auto" ? options.engine : engines.front().name;
     for (const auto& engine : engines)
         if (name == engine.name) {
@@ -88,7 +89,8 @@ std::unique_ptr<Engine> makeEngineHere(const Scene& wanted, const EngineOptions&
                     engine.make(engine.tie > 0 ? withTiesAbove(part, engine.tie) : part, options), part);
                 return engine.veils ? std::move(made) : withVeils(std::move(made));
             };
-            return withViewMaps(scene.settings.adaptive ? makeAdaptiveEngine(scene, plain) : plain(scene), scene);
+            auto drawn = isAdaptive(scene.settings) ? makeAdaptiveEngine(scene, plain) : plain(scene);
+            return withSamples(withViewMaps(std::move(drawn), scene), wanted);
         }
     throw std::runtime_error(fmt::format("engine '{}': there is no such engine; take one of auto, {}", options.engine,
                                          fmt::join(engineNames(), ", ")));

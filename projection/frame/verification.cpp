@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include <projection/core/scalar_range.h>
-#include <projection/reference/reference_ray_caster.h>
+#include <projection/frame/sampled_engine.h>
 
 namespace tetralux::projection {
 
@@ -63,8 +63,7 @@ Verification verifyImage(const Image& image, const Scene& scene, const View& vie
                         image.width, image.height, camera.width, camera.height));
     const std::vector<std::uint32_t> pixels = chosenPixels(image.pixels.size(), samples, seed);
     Image exact(image.width, image.height);
-    ReferenceRayCaster(withScalarsInRange(scene)).renderPixels(view, pixels, exact);
-    if (view.maps != nullptr) composeBehind(exact, *view.maps);
+    castPixels(withScalarsInRange(scene), camera, view.maps, pixels, exact);
 
     Verification result;
     result.pixels = pixels.size();

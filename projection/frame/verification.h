@@ -34,9 +34,9 @@ struct Verification {
 /// How many of `allPixels` have to be computed again, and found right, for a bound of the rmse within `maxError`.
 std::size_t pixelsToVouchFor(double maxError, std::size_t allPixels, double largest = 1.0);
 
-/// Compares `image`, made of `scene` in `view` (with the maps it was drawn with) without background, with the reference
-/// in `samples` different pixels chosen at random from `seed`; in all pixels when there are no more than that. \throws
-/// std::runtime_error when the image does not have the camera's size.
+/// Compares `image`, made of `scene` in `view` (with the maps it was drawn with, FrameReport::maps) without background,
+/// with the reference in `samples` different pixels chosen at random from `seed`; in all pixels when there are no more
+/// than that. \throws std::runtime_error when the image does not have the camera's size.
 Verification verifyImage(const Image& image, const Scene& scene, const View& view, std::size_t samples,
                          std::uint32_t seed);
 

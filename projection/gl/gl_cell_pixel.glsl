@@ -90,10 +90,6 @@ bool drawSegment(CellRecord cell, vec2 pixel, float dx, float dy, vec2 rho, vec3
     result = vec4(min(front, back));
 #elif TETRALUX_MODE == TETRALUX_MODE_AVERAGE
     result = vec4(0.5 * (front + back) * len, len, 0.0, 0.0);
-#elif TETRALUX_MODE == TETRALUX_MODE_CONTRIBUTION
-    Gathered segment = gatherSegment(front, back, len);
-    float shows = segment.smoothDepth + segment.otherDepth > 0.0 ? 1.0 : 0.0;
-    result = vec4(shows, segment.smoothDepth, 0.0, 0.0);
 #elif TETRALUX_MODE == TETRALUX_MODE_DEPTH
     float step = firstShown(front, back);
     if (step > 1e30) return false;

@@ -40,9 +40,8 @@ int shaderMode(Mode mode) {
             return 6;
         case Mode::Depth:
             return 7;
-        case Mode::Contribution:
-        case Mode::DataContribution:
-            return 8;
+        case Mode::Contributions:
+            break;  // engines draw the sums that it shows
     }
     return 0;
 }
@@ -72,8 +71,7 @@ GlDefines variant(const RenderSettings& settings, const shading::VertexLight& ve
     const bool looksUp = table != nullptr;
     const bool dataSpace = integralOf(settings.mode) == preint::Integral::ScaleInvariant;
     const bool scaleInvariant = dataSpace && (!looksUp || table->integral == preint::Integral::ScaleInvariant);
-    const bool shades = looksUp && settings.mode != Mode::Depth && settings.mode != Mode::Contribution &&
-                        settings.mode != Mode::DataContribution;
+    const bool shades = looksUp && settings.mode != Mode::Depth;
     const bool silhouette = shades && shading.silhouette, levoy = shades && shading.gradientOpacity > 0;
     const bool length = settings.mode == Mode::Average || (looksUp && (!dataSpace || silhouette));
     const int lights = shades ? static_cast<int>(shading.lights.size()) : 0;
@@ -90,6 +88,7 @@ GlDefines variant(const RenderSettings& settings, const shading::VertexLight& ve
     defines.set("TETRALUX_APPROXIMATE_SILHOUETTE", silhouette && shading.approximateSilhouette);
     defines.set("TETRALUX_GRADIENT_OPACITY", levoy);
     defines.set("TETRALUX_SAMPLED", shades && settings.classification != Classification::Preintegrated);
+    defines.set("TETRALUX_PER_CELL", shades && settings.contributions.perCell);
     defines.set("TETRALUX_LINEAR_OPACITY", shades && settings.classification == Classification::PostLinear);
     defines.set("TETRALUX_LIGHTS", lights);
     defines.set("TETRALUX_CUT_LAYERS", kind.limited && lights > 0 && settings.mode != Mode::Absorption);
@@ -243,8 +242,8 @@ GlCellProgram::GlCellProgram(const GlFunctions& gl, const RenderSettings& settin
                              bool linearSampler)
     : gl_(gl),
       program_(gl,
-               withTileConstants(variant(settings, vertexLight, extinctionSupport(function).size(), table, walked, kind,
-                                         linearSampler),
+               withTileConstants(variant(settings, vertexLight, floatExtinctionSupport(function).size(), table, walked,
+                                         kind, linearSampler),
                                  kind.tiles),
                shaders(table != nullptr, walked != nullptr, kind.tiles)),
       ndcPerPixel_(program_.uniform("ndcPerPixel")),
@@ -256,16 +255,14 @@ GlCellProgram::GlCellProgram(const GlFunctions& gl, const RenderSettings& settin
       lightPlace_(program_.uniform("lightPlace")),
       lightFade_(program_.uniform("lightFade")) {
     program_.use();
-    setConstants(settings, extinctionSupport(function), table, walked);
+    setConstants(settings, floatExtinctionSupport(function), table, walked);
     checkGl(gl_, "shader constants");
 }
 
-void GlCellProgram::setConstants(const RenderSettings& settings, const std::vector<glm::dvec2>& support,
+void GlCellProgram::setConstants(const RenderSettings& settings, const std::vector<glm::vec2>& support,
                                  const preint::PreintegrationTable* table, const WalkedPieces* walked) const {
-    std::vector<glm::vec2> supportFloats(support.begin(), support.end());
-    for (glm::vec2& interval : supportFloats) interval = glm::clamp(interval, -3e38f, 3e38f);
-    gl_.Uniform2fv(program_.uniform("support"), static_cast<GLsizei>(supportFloats.size()),
-                   reinterpret_cast<const float*>(supportFloats.data()));
+    gl_.Uniform2fv(program_.uniform("support"), static_cast<GLsizei>(support.size()),
+                   reinterpret_cast<const float*>(support.data()));
     const auto& shading = settings.shading;
     std::vector<glm::vec3> lights;
     for (const auto& light : shading.lights) lights.emplace_back(light.towards);

@@ -91,7 +91,7 @@ public:
     void setDepthRange(const DepthRange& range, const SceneUnits& units) const;
 
 private:
-    void setConstants(const RenderSettings& settings, const std::vector<glm::dvec2>& support,
+    void setConstants(const RenderSettings& settings, const std::vector<glm::vec2>& support,
                       const preint::PreintegrationTable* table, const WalkedPieces* walked) const;
 
     void setLightModel(const shading::ShadingSettings& shading) const;

@@ -110,7 +110,8 @@ preint::PreintegrationTable buildTable(const Scene& scene, const preint::Transfe
                                        const SceneUnits& units) {
     const preint::ExactIntegral exact(function);
     preint::TableOptions options = scene.settings.table;
-    options.meanColors = scene.settings.mode == Mode::FirstHit;
+    options.meanColors = scene.settings.mode == Mode::FirstHit ||
+                         scene.settings.contributions.any();  // their weights do not know the table's
     options.evenTexelsFirst = !options.meanColors;
     options.wantedError = wantedErrorOf(scene);
     if (takesSamples(scene)) options.size = 2;  // only its zones are asked for
@@ -135,8 +136,7 @@ public:
           function_(inSceneUnits(scene.transferFunction, units_, integralOf(scene.settings.mode))),
           context_(makeGlContext(options.context)) {
         Stopwatch watch;
-        layout_.gradient = modeLooksUp(mode()) && mode() != Mode::Depth && mode() != Mode::Contribution &&
-                           mode() != Mode::DataContribution && scene.settings.shading.needsGradient();
+        layout_.gradient = modeLooksUp(mode()) && mode() != Mode::Depth && scene.settings.shading.needsGradient();
         if (modeLooksUp(mode())) {
             table_ = buildTable(scene, function_, units_);
             const bool misses = table_->measuredError > wantedTableError() && scene.settings.table.size == 0;

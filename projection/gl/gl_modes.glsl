@@ -26,11 +26,28 @@ Gathered sampledSegment(float front, float back, float path) {
 #endif
 }
 
-#if TETRALUX_MODE == TETRALUX_MODE_ADDITIVE
-// ∫ c τ over the path, nothing hidden: colour per depth, where the depth of an isosurface is its opacity. The table's first slice holds
-// the mean colour of thin segments.
-Gathered emittedSegment(float front, float back, float path) {
-    Gathered sum = Gathered(vec3(0.0), 0.0, 0.0, 0.0);
+#if TETRALUX_MODE == TETRALUX_MODE_ADDITIVE || TETRALUX_PER_CELL
+// What a segment shows where nothing within it is hidden: ∫ c τ and ∫ τ over the path, and the isosurfaces that it crosses. The table's
+// first slice holds the mean colour of thin segments.
+struct Emitted {
+    vec3 smoothColor, layerColor;  // times depth, times weight
+    float smoothDepth, layerWeight;
+};
+
+// Part of a segment within one zone. What is relevant has extinction 1 where cells count: less is rounding.
+void addEmitted(int zone, float front, float back, float path, inout Emitted sum) {
+    vec4 entry = tableEntry(zone, front, back, 0.0);
+#if TETRALUX_PER_CELL
+    float depth = entry.w > 0.5 ? path : 0.0;
+#else
+    float depth = entry.w * path;
+#endif
+    sum.smoothColor += depth * entry.rgb;
+    sum.smoothDepth += depth;
+}
+
+Emitted emittedSegment(float front, float back, float path) {
+    Emitted sum = Emitted(vec3(0.0), vec3(0.0), 0.0, 0.0);
 #if TETRALUX_INTERFACES
     float low = min(front, back), high = max(front, back);
     int first = 0, end = 0;
@@ -45,24 +62,49 @@ Gathered emittedSegment(float front, float back, float path) {
         int next = select(rising, first + n, end - 1 - n);
         float to = n < crossed ? interfaceValue[next] : back;
         int zone = zoneAfter[crossed == 0 ? first : select(rising, next, next + 1)];
-        vec4 entry = tableEntry(zone, at, to, 0.0);
-        float depth = entry.w * (crossed == 0 ? path : path * abs(to - at) / (high - low));
-        sum.meanColor += depth * entry.rgb;
-        sum.smoothDepth += depth;
+        addEmitted(zone, at, to, crossed == 0 ? path : path * abs(to - at) / (high - low), sum);
         if (n < crossed) {
-            float opacity = opacityOf(interfaceLayer[next].w * interfaceScale);
-            sum.meanColor += opacity * interfaceLayer[next].rgb;
-            sum.otherDepth += opacity;
+            vec4 layer = interfaceLayer[next];
+#if TETRALUX_PER_CELL
+            float weight = layer.w > 0.0 ? 1.0 : 0.0;
+#else
+            float weight = opacityOf(layer.w * interfaceScale);
+#endif
+            sum.layerColor += weight * layer.rgb;
+            sum.layerWeight += weight;
         }
         at = to;
     }
 #else
-    vec4 entry = tableEntry(0, front, back, 0.0);
-    sum.smoothDepth = entry.w * path;
-    sum.meanColor = sum.smoothDepth * entry.rgb;
+    addEmitted(0, front, back, path, sum);
 #endif
-    sum.meanColor /= max(sum.smoothDepth + sum.otherDepth, 1e-36);
     return sum;
+}
+#endif
+
+#if TETRALUX_PER_CELL
+// ContributionWeights::perCell: one contribution for what shows, one for each isosurface, in their mean colour.
+Gathered contributionsOf(float front, float back, float path) {
+#if TETRALUX_SAMPLED
+    Gathered taken = sampledSegment(front, back, path);
+    return Gathered(taken.meanColor, 0.0, 0.0, path > 0.0 && taken.meanExtinction > 0.5 ? interfaceScale : 0.0);
+#else
+    Emitted shown = emittedSegment(front, back, path);
+    vec3 color = shown.layerColor;
+    float count = shown.layerWeight;
+    if (shown.smoothDepth > 0.0) {
+        color += shown.smoothColor / shown.smoothDepth;
+        count += 1.0;
+    }
+    return Gathered(color / max(count, 1.0), 0.0, 0.0, count * interfaceScale);
+#endif
+}
+#elif TETRALUX_MODE == TETRALUX_MODE_ADDITIVE && !TETRALUX_SAMPLED
+// Colour per depth, where the depth of an isosurface is its opacity.
+Gathered emittedMean(float front, float back, float path) {
+    Emitted shown = emittedSegment(front, back, path);
+    vec3 color = (shown.smoothColor + shown.layerColor) / max(shown.smoothDepth + shown.layerWeight, 1e-36);
+    return Gathered(color, 0.0, shown.smoothDepth, shown.layerWeight);
 }
 #endif
 

@@ -40,7 +40,8 @@ void resolveOrderFree(Image& image, const Scene& scene, const Camera& camera, co
                 return gathered.y > 0.0f ? colorOf(first / second) : glm::vec4(0);
             case Mode::Additive:
             case Mode::DataAdditive:
-                return {glm::vec3(gathered), std::min(gathered.w, 1.0f)};
+                return scene.settings.contributions.sums ? gathered
+                                                         : glm::vec4(glm::vec3(gathered), std::min(gathered.w, 1.0f));
             case Mode::Emission:
                 return {glm::vec3(gathered), 0.0f};
             case Mode::Absorption:

@@ -43,10 +43,12 @@ vec4 shadedSegment(float front, float back, float len, float fallSide, vec3 view
     path = abs(front - back);  // looked up as a length, so that it can be scaled
 #endif
     path *= interfaceScale;
-#if TETRALUX_MODE == TETRALUX_MODE_ADDITIVE
-    Gathered segment = emittedSegment(front, back, path);
+#if TETRALUX_PER_CELL
+    Gathered segment = contributionsOf(front, back, TETRALUX_DATA_SPACE != 0 ? abs(front - back) : len);
 #elif TETRALUX_SAMPLED
     Gathered segment = sampledSegment(front, back, TETRALUX_DATA_SPACE != 0 ? abs(front - back) * interfaceScale : path);
+#elif TETRALUX_MODE == TETRALUX_MODE_ADDITIVE
+    Gathered segment = emittedMean(front, back, path);
 #else
     Gathered segment = gatherSegment(front, back, path);
 #endif

@@ -9,6 +9,7 @@
 //   TETRALUX_DATA_SPACE       extinction is integrated over the scalar's variation
 //   TETRALUX_SCALE_INVARIANT  the table is a 2D one of that integral; without it a 3D one is looked up with the path as its length
 //   TETRALUX_SAMPLED          post-classification, pre-classification where TETRALUX_SAMPLE_AT ≥ 0; TETRALUX_LINEAR_OPACITY: linear form
+//   TETRALUX_PER_CELL         each segment that shows is one contribution (ContributionWeights::perCell in projection/modes.h)
 //   TETRALUX_DEPTH_COLOR      colours go over into another one with the distance (shading/lights.h)
 //   TETRALUX_LIMITS           the view has pixel maps; TETRALUX_CUT_LAYERS: light falls on the layers of their cuts
 //   TETRALUX_TILES            compute tiles (gl_tile_draw.comp), else fragments
@@ -20,7 +21,6 @@
 #define TETRALUX_MODE_ADDITIVE 5
 #define TETRALUX_MODE_ABSORPTION 6
 #define TETRALUX_MODE_DEPTH 7
-#define TETRALUX_MODE_CONTRIBUTION 8
 
 // What is the same for all pixels of a cell.
 #if TETRALUX_TILES

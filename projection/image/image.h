@@ -45,6 +45,9 @@ Image resized(const Image& image, int width, int height);
 /// appears whole or not at all: it is written beside and renamed. \throws std::runtime_error
 void writeImage(const Image& image, const std::string& path);
 
+/// Whether files with this ending hold any number, not only 0 … 1. \throws std::runtime_error for an unknown ending
+bool holdsNumbers(const std::string& path);
+
 /// Finds out before any work whether writeImage could write `path`: its ending, its folder, the right to write there.
 /// \throws std::runtime_error
 void checkImagePath(const std::string& path);

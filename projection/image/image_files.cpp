@@ -18,8 +18,9 @@ struct ImageFormat {
     const char* extension;
     std::string (*encode)(const Image&, const std::string& name);
     Image (*decode)(const std::string& bytes, const std::string& name);
+    bool numbers;  ///< float
 };
-constexpr ImageFormat formats[] = {{".png", encodePng, decodePng}, {".exr", encodeExr, decodeExr}};
+constexpr ImageFormat formats[] = {{".png", encodePng, decodePng, false}, {".exr", encodeExr, decodeExr, true}};
 
 const ImageFormat& formatOf(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
@@ -31,6 +32,10 @@ const ImageFormat& formatOf(const std::string& path) {
 }
 
 }  // namespace
+
+bool holdsNumbers(const std::string& path) {
+    return formatOf(path).numbers;
+}
 
 void checkImagePath(const std::string& path) {
     formatOf(path);

@@ -283,12 +283,12 @@ bool showsLight(const RenderSettings& settings) {
 }
 
 Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& ray, const RaySegment& segment,
-             const glm::dvec3& cutNormal, const DepthRange& depths) {
+             const glm::dvec3& cutNormal, const DepthRange& depths, double scale) {
     const auto& shading = scene.settings.shading;
     const preint::Integral integral = integralOf(scene.settings.mode);
     const double length = segment.tOut - segment.tIn;
     const glm::dvec3 middle = ray.origin + (0.5 * segment.tIn + 0.5 * segment.tOut) * ray.direction;
-    const auto [unlitColor, plainDepth, smooth] = unshadedSegment(exact, scene, segment, middle);
+    const auto [unlitColor, plainDepth, smooth] = unshadedSegment(exact, scene, segment, middle, scale);
     const bool hides = !addsUp(scene.settings.mode);
     double factor = 1.0;
     glm::dvec3 meanColor = unlitColor;
@@ -301,7 +301,7 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
     if (shading.silhouette && slope.any()) {
         const double cosine = glm::dot(normal, ray.direction);
         double smoothTimesK = 0.0, other = depth;
-        if (integral == preint::Integral::ScaleInvariant) {
+        if (integral == preint::Integral::ScaleInvariant && !scene.settings.contributions.perCell) {
             const double meanExtinction =
                 variation > 0 ? smooth / variation : exact.function().extinctionAt(segment.scalarIn);
             smoothTimesK = meanExtinction * magnitude * length;
@@ -397,14 +397,16 @@ glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, const preint::ExactInte
         return a.tIn != b.tIn ? a.tIn < b.tIn : a.tOut < b.tOut;
     });
     const preint::TransferFunction& function = exact.function();
-    const glm::dvec3& cutNormal = limits.cutNormal;
+    const auto shaded = [&](const RaySegment& segment) {
+        return shade(exact, scene_, ray, segment, limits.cutNormal, limits.depths, limits.extinctionScale);
+    };
     switch (scene_.settings.mode) {
         case Mode::Standard:
         case Mode::ScaleInvariant: {
             Gathered gathered;
             for (const RaySegment& segment : segments) {
-                const Shaded shaded = shade(exact, scene_, ray, segment, cutNormal, limits.depths);
-                gathered.add(shaded.color, shaded.opacity);
+                const Shaded part = shaded(segment);
+                gathered.add(part.color, part.opacity);
             }
             return gathered.pixel();
         }
@@ -426,30 +428,20 @@ glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, const preint::ExactInte
             glm::dvec3 color(0);
             double sum = 0;
             for (const RaySegment& segment : segments) {
-                const Shaded shaded = shade(exact, scene_, ray, segment, cutNormal, limits.depths);
-                color += shaded.color;
-                sum += shaded.depth;
+                const Shaded part = shaded(segment);
+                color += part.color;
+                sum += part.depth;
             }
-            return {color, scene_.settings.mode == Mode::Emission ? 0.0 : std::min(sum, 1.0)};
+            if (!scene_.settings.contributions.sums) sum = std::min(sum, 1.0);
+            return {color, scene_.settings.mode == Mode::Emission ? 0.0 : sum};
         }
         case Mode::Absorption: {
             double depth = 0;
-            for (const RaySegment& segment : segments)
-                depth += shade(exact, scene_, ray, segment, cutNormal, limits.depths).depth;
+            for (const RaySegment& segment : segments) depth += shaded(segment).depth;
             return {0, 0, 0, -std::expm1(-depth)};
         }
-        case Mode::Contribution:
-        case Mode::DataContribution: {
-            double count = 0, path = 0;
-            for (const RaySegment& segment : segments) {
-                const double length = segment.tOut - segment.tIn;
-                const auto integral = integralOf(scene_.settings.mode);
-                const auto whole = exact.segment(segment.scalarIn, segment.scalarOut, length, integral);
-                count += whole.opticalDepth > 0 ? 1 : 0;
-                path += exact.smoothSegment(segment.scalarIn, segment.scalarOut, length, integral).opticalDepth;
-            }
-            return {count, path, 0, 0};
-        }
+        case Mode::Contributions:
+            break;  // drawn as the sums that it shows
         case Mode::Depth:
             for (const RaySegment& segment : segments)
                 if (const auto distance = firstShownAt(exact, segment))
@@ -466,10 +458,10 @@ glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, const preint::ExactInte
         }
         case Mode::FirstHit:
             for (const RaySegment& segment : segments) {
-                const Shaded shaded = shade(exact, scene_, ray, segment, cutNormal, limits.depths);
+                const Shaded first = shaded(segment);
                 const double pixel = limits.pixelAtEye + limits.pixelPerDistance * segment.tOut;
-                const bool touched = segment.tOut - segment.tIn < touchedPixels * pixel && shaded.opacity < 1e-6;
-                if (shaded.opacity > 0 && !touched) return {shaded.color / shaded.opacity, 1.0};
+                const bool touched = segment.tOut - segment.tIn < touchedPixels * pixel && first.opacity < 1e-6;
+                if (first.opacity > 0 && !touched) return {first.color / first.opacity, 1.0};
             }
             return glm::dvec4(0);
     }

@@ -37,34 +37,43 @@ std::vector<double> scalarsAlong(const preint::TransferFunction& function, const
     return scalars;
 }
 
-/// ∫ c τ and ∫ τ over the path: c τ is quadratic between nodes, where Simpson's rule is exact.
-UnshadedSegment emission(const ExactIntegral& exact, const RaySegment& segment, preint::Integral integral) {
+/// ∫ c τ and ∫ τ.
+struct Emission {
+    glm::dvec3 light{0};
+    double depth = 0.0;
+};
+
+/// Over the path, isosurfaces apart: c τ is quadratic between nodes, where Simpson's rule is exact.
+Emission smoothEmission(const ExactIntegral& exact, const RaySegment& segment, preint::Integral integral) {
     const preint::TransferFunction& function = exact.function();
     const double path = pathOf(segment, integral), variation = std::abs(segment.scalarOut - segment.scalarIn);
-    glm::dvec3 light(0);
-    UnshadedSegment sum;
-    if (variation > 0) {
-        const std::vector<double> scalars = scalarsAlong(function, segment);
-        for (std::size_t i = 0; i + 1 < scalars.size(); ++i) {
-            const double low = std::min(scalars[i], scalars[i + 1]), high = std::max(scalars[i], scalars[i + 1]);
-            const auto a = exact.valueFromAbove(low), b = exact.valueFromBelow(high);
-            const double length = path * (high - low) / variation;
-            const glm::dvec3 middle = 0.25 * (a.color + b.color) * (a.extinction + b.extinction);
-            light += length / 6.0 * (a.color * a.extinction + 4.0 * middle + b.color * b.extinction);
-            sum.smoothDepth += length * 0.5 * (a.extinction + b.extinction);
-        }
-    } else {
-        sum.smoothDepth = path * function.extinctionAt(segment.scalarIn);
-        light = sum.smoothDepth * function.colorAt(segment.scalarIn);
+    if (!(variation > 0)) {
+        const double depth = path * function.extinctionAt(segment.scalarIn);
+        return {depth * function.colorAt(segment.scalarIn), depth};
     }
-    sum.depth = sum.smoothDepth;
-    for (const auto& surface : function.isosurfaces)
+    Emission sum;
+    const std::vector<double> scalars = scalarsAlong(function, segment);
+    for (std::size_t i = 0; i + 1 < scalars.size(); ++i) {
+        const double low = std::min(scalars[i], scalars[i + 1]), high = std::max(scalars[i], scalars[i + 1]);
+        const auto a = exact.valueFromAbove(low), b = exact.valueFromBelow(high);
+        const double length = path * (high - low) / variation;
+        const glm::dvec3 middle = 0.25 * (a.color + b.color) * (a.extinction + b.extinction);
+        sum.light += length / 6.0 * (a.color * a.extinction + 4.0 * middle + b.color * b.extinction);
+        sum.depth += length * 0.5 * (a.extinction + b.extinction);
+    }
+    return sum;
+}
+
+UnshadedSegment emission(const ExactIntegral& exact, const RaySegment& segment, preint::Integral integral) {
+    const Emission smooth = smoothEmission(exact, segment, integral);
+    glm::dvec3 light = smooth.light;
+    double depth = smooth.depth;
+    for (const auto& surface : exact.function().isosurfaces)
         if (crosses(segment, surface)) {
             light += surface.opacity * surface.color;
-            sum.depth += surface.opacity;
+            depth += surface.opacity;
         }
-    if (sum.depth > 0) sum.meanColor = light / sum.depth;
-    return sum;
+    return {depth > 0 ? light / depth : glm::dvec3(0), depth, smooth.depth};
 }
 
 /// Barycentric coordinates of a point in a cell.
@@ -105,13 +114,35 @@ UnshadedSegment sampled(const ExactIntegral& exact, const Scene& scene, const Ra
     return result;
 }
 
+/// ContributionWeights::perCell.
+UnshadedSegment cellContributions(const ExactIntegral& exact, const Scene& scene, const RaySegment& segment,
+                                  const glm::dvec3& middle, double scale) {
+    glm::dvec3 colors(0);
+    double count = 0;
+    const auto add = [&](const glm::dvec3& color) {
+        colors += color;
+        count += 1;
+    };
+    if (scene.settings.classification != Classification::Preintegrated) {
+        const UnshadedSegment sample = sampled(exact, scene, segment, middle);
+        if (sample.depth > 0) add(sample.meanColor);
+    } else {
+        const Emission smooth = smoothEmission(exact, segment, integralOf(scene.settings.mode));
+        if (smooth.depth > 0) add(smooth.light / smooth.depth);
+        for (const auto& surface : exact.function().isosurfaces)
+            if (crosses(segment, surface)) add(surface.color);
+    }
+    return {count > 0 ? colors / count : glm::dvec3(0), count * scale, 0.0};
+}
+
 }  // namespace
 
 UnshadedSegment unshadedSegment(const ExactIntegral& exact, const Scene& scene, const RaySegment& segment,
-                                const glm::dvec3& middle) {
+                                const glm::dvec3& middle, double scale) {
     const preint::Integral integral = integralOf(scene.settings.mode);
-    if (addsUp(scene.settings.mode)) return emission(exact, segment, integral);
+    if (scene.settings.contributions.perCell) return cellContributions(exact, scene, segment, middle, scale);
     if (scene.settings.classification != Classification::Preintegrated) return sampled(exact, scene, segment, middle);
+    if (addsUp(scene.settings.mode)) return emission(exact, segment, integral);
     const double length = segment.tOut - segment.tIn;
     const auto whole = exact.segment(segment.scalarIn, segment.scalarOut, length, integral);
     const glm::dvec3 meanColor = whole.opacity() > 0 ? whole.color / whole.opacity() : glm::dvec3(0);

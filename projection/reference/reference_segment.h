@@ -19,9 +19,10 @@ struct UnshadedSegment {
     double smoothDepth = 0.0;  ///< without isosurfaces
 };
 
-/// `position` of the middle of the segment, mesh units, is what pre-classification interpolates at.
+/// `middle` of the segment, mesh units, is where pre-classification interpolates. `scale`: the pixel's factor of
+/// extinction, which `exact` has already.
 UnshadedSegment unshadedSegment(const preint::ExactIntegral& exact, const Scene& scene, const RaySegment& segment,
-                                const glm::dvec3& middle);
+                                const glm::dvec3& middle, double scale);
 
 /// Cuts a segment to what lies between two distances; false when nothing does.
 bool limit(RaySegment& segment, double nearest, double farthest);

@@ -28,11 +28,11 @@ public:
         : WrappedEngine(std::move(engine)), scene_(scene), caster_(scene) {
         const Mode mode = scene.settings.mode;
         dense_ = mode == Mode::Standard || mode == Mode::ScaleInvariant || mode == Mode::FirstHit ||
-                 mode == Mode::Absorption;
+                 mode == Mode::Absorption || scene.settings.contributions.any();
+        eachCellShows_ = mode == Mode::FirstHit || scene.settings.contributions.perCell;
         if (!dense_ || engine_->name() == "reference") return;
-        beyondFloat_ =
-            cellsBeyondFloat(*scene.mesh, scene.transferFunction, integralOf(scene.settings.mode),
-                             {mode == Mode::FirstHit, engine_->name() == "gl", scene.settings.shading.silhouette});
+        beyondFloat_ = cellsBeyondFloat(*scene.mesh, scene.transferFunction, integralOf(scene.settings.mode),
+                                        {eachCellShows_, engine_->name() == "gl", scene.settings.shading.silhouette});
         if (!scene.transferFunction.isosurfaces.empty()) outlines_.emplace(scene);
     }
 
@@ -59,7 +59,7 @@ private:
     }
 
     /// Adds the pixels of cells beyond float, those where floats or samples beside the centres may miss outlines and,
-    /// where the cell that a ray meets first shows, those where rounding would say which it is.
+    /// where single cells show, those where rounding would say which a ray meets.
     void doubtMore(const Camera& camera, FrameReport& report) const {
         const CameraFrame frame = cameraFrame(camera);
         std::vector<std::uint32_t>& pixels = report.doubtfulPixels;
@@ -68,8 +68,7 @@ private:
             pixels.insert(pixels.end(), more.begin(), more.end());
         };
         if (dense_ && report.samplesBeside) add(tiedPixels(scene_, frame));
-        if (scene_.settings.mode == Mode::FirstHit && engine_->name() != "reference")
-            add(tiedEdgePixels(scene_, frame));
+        if (eachCellShows_ && engine_->name() != "reference") add(tiedEdgePixels(scene_, frame));
         if (outlines_) add(outlines_->pixels(frame));
         if (!beyondFloat_.empty()) add(pixelsBeyondFloat(frame));
         if (pixels.size() == known) return;
@@ -102,7 +101,8 @@ private:
     }
 
     Scene scene_;
-    bool dense_ = false;  // integrates opacity: a missed isosurface, or depth that float does not hold, shows
+    bool dense_ = false;          // integrates opacity: a missed isosurface, or depth that float does not hold, shows
+    bool eachCellShows_ = false;  // however short a ray's way through it is
     std::vector<mesh::CellIndex> beyondFloat_;
     std::optional<IsosurfaceOutlines> outlines_;
     ReferenceRayCaster caster_;

@@ -3,6 +3,7 @@
 // tetralux render: limits, modes, classification, silhouettes, isosurfaces, adaptive opacity.
 #include <projection/image/image.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "command_line_test.h"
@@ -75,6 +76,40 @@ TEST_F(ShapeCommand, PicturesWithMapsAreVerified) {
     expectGood("render bucky:6 --size 12x12 -o a.png --gradient-opacity 0.3 --quiet");
 }
 
+TEST_F(ShapeCommand, TheMapOfContributionsHoldsNumbers) {
+    const std::string render = "render bucky:6 --size 24x24 --mode contributions --report r.json --quiet -o ";
+    const auto largest = [&](const std::string& name) {
+        float most = 0;
+        for (const glm::vec4& pixel : readImage(path(name)).pixels) most = std::max(most, pixel.x);
+        return most;
+    };
+    expectGood(render + "n.exr");
+    const float most = largest("n.exr");
+    EXPECT_GT(most, 5.0f);
+    EXPECT_EQ(most, std::round(most));  // cells, where nothing else is asked for
+    EXPECT_EQ(json("r.json")["contributions"]["most"].get<float>(), most);
+    expectGood(render + "n.png");
+    EXPECT_EQ(largest("n.png"), 1.0f);
+    expectGood(render + "l.exr --adaptive length --adaptive-step 0.05");
+    EXPECT_NE(largest("l.exr"), std::round(largest("l.exr")));
+}
+
+TEST_F(ShapeCommand, SamplesAreAveragedAndTold) {
+    const std::string render = "render bucky:6 --size 24x24 --quiet --report r.json --verify 100 -o ";
+    expectGood(render + "one.exr");
+    EXPECT_EQ(json("r.json")["samples"].get<int>(), 1);
+    expectGood(render + "four.exr --samples 4");
+    EXPECT_EQ(json("r.json")["samples"].get<int>(), 4);
+    EXPECT_LT(json("r.json")["verification"]["rmse"].get<double>(), 1e-4);
+    expectGood(render + "nine.exr --samples 8");
+    EXPECT_EQ(json("r.json")["samples"].get<int>(), 9);
+    const auto one = readImage(path("one.exr")), four = readImage(path("four.exr"));
+    EXPECT_EQ(four.width, 24);
+    EXPECT_GT(projection::compareImages(one, four).max, 1e-3);
+    expectRefused("render bucky:4 -o a.png --samples 0", {"--samples", "1 to 64"});
+    expectRefused("render bucky:4 -o a.png --samples 65", {"--samples", "1 to 64"});
+}
+
 TEST_F(ShapeCommand, RefusesWhatCannotBe) {
     const std::string render = "render bucky:4 -o a.png ";
     expectRefused(render + "--clip-plane 0,0,0,1,0", {"--clip-plane", "px,py,pz,nx,ny,nz"});
@@ -86,6 +121,9 @@ TEST_F(ShapeCommand, RefusesWhatCannotBe) {
     expectRefused(render + "--isosurfaces 0", {"--isosurfaces", "1024"});
     expectRefused(render + "--adaptive voxels", {"--adaptive", "cells, length"});
     expectRefused(render + "--adaptive cells --mode mip", {"--adaptive", "additive"});
+    expectRefused(render + "--adaptive cells --adaptive-max 2", {"--adaptive-max", "up to 1"});
+    expectRefused(render + "--adaptive cells --adaptive-threshold 1", {"--adaptive-threshold", "below 1"});
+    expectRefused(render + "--adaptive cells --classification pre", {"--classification pre", "post"});
     expectRefused(render + "--gradient-opacity -1", {"--gradient-opacity"});
 }
 

@@ -34,8 +34,7 @@ const std::map<Mode, std::string> modes{{Mode::Standard, "Standard"},
                                         {Mode::Absorption, "Absorption"},
                                         {Mode::FirstHit, "FirstHit"},
                                         {Mode::Depth, "Depth"},
-                                        {Mode::Contribution, "Contribution"},
-                                        {Mode::DataContribution, "DataContribution"}};
+                                        {Mode::Contributions, "Contributions"}};
 
 Scene fieldScene(const std::string& source, Mode mode) {
     auto read = mesh::readMesh(source);
@@ -45,7 +44,7 @@ Scene fieldScene(const std::string& source, Mode mode) {
         integralOf(mode) == preint::Integral::ScaleInvariant ? high - low : selected.mesh.bounds.diagonal() / 1.7;
     auto function = smoothFunction(low, high, 12.0 / extent);
     // what is first seen must be more than a breath for engines to agree on it
-    if (mode == Mode::FirstHit || mode == Mode::Depth || mode == Mode::Contribution || mode == Mode::DataContribution)
+    if (mode == Mode::FirstHit || mode == Mode::Depth || mode == Mode::Contributions)
         function.extinction = {{low + 0.3 * (high - low), 0.0}, {low + 0.3 * (high - low), 1.0 / extent}};
     return sceneOf(std::move(selected.mesh), function, mode);
 }
@@ -71,8 +70,7 @@ EngineThreshold thresholdOf(Mode mode) {
         case Mode::FirstHit:
         case Mode::Depth:
             return edged;
-        case Mode::Contribution:
-        case Mode::DataContribution:
+        case Mode::Contributions:
             return {0.02, 1.01};  // a whole cell at a rim
         default:
             return smooth;
@@ -109,7 +107,7 @@ TEST_P(Modes, EnginesAgreeOnIsosurfaces) {
 INSTANTIATE_TEST_SUITE_P(All, Modes,
                          testing::Values(Mode::Standard, Mode::ScaleInvariant, Mode::Mip, Mode::Minimum, Mode::Average,
                                          Mode::Additive, Mode::DataAdditive, Mode::Emission, Mode::Absorption,
-                                         Mode::FirstHit, Mode::Depth, Mode::Contribution, Mode::DataContribution),
+                                         Mode::FirstHit, Mode::Depth, Mode::Contributions),
                          [](const auto& suite) { return modes.at(suite.param); });
 
 TEST(OrderFreeModes, SpendNoTimeInSorting) {

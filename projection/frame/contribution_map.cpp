@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <projection/frame/amount_map.h>
+#include <projection/frame/contribution_map.h>
 
 #include <algorithm>
 #include <cmath>
@@ -118,17 +118,17 @@ std::vector<float> interpolated(const Plane& plane, const Camera& camera) {
 
 }  // namespace
 
-std::vector<float> amountMap(const View& view, const AdaptiveSettings& settings, int channel,
-                             const std::function<Image(const View&)>& measure) {
+std::vector<float> contributionMap(const View& view, const AdaptiveSettings& settings,
+                                   const std::function<Image(const View&)>& measure) {
     const int factor = settings.filter == AdaptiveSettings::Filter::Bilinear2   ? 2
                        : settings.filter == AdaptiveSettings::Filter::Bilinear4 ? 4
                                                                                 : 1;
     const Camera camera = reduced(view.camera, factor);
     PixelMaps limits;
     if (view.maps != nullptr) limits = reducedLimits(*view.maps, view.camera, camera);
-    const Image image = measure({camera, limits.changeVolume() ? &limits : nullptr});
+    const Image image = measure({camera, limits.changeVolume() ? &limits : nullptr, view.control});
     Plane plane{image.width, image.height, {}};
-    for (const glm::vec4& pixel : image.pixels) plane.values.push_back(pixel[channel]);
+    for (const glm::vec4& pixel : image.pixels) plane.values.push_back(pixel.a);
     if (settings.filter == AdaptiveSettings::Filter::Gaussian) plane = gaussian(plane, settings.sigma);
     return factor == 1 ? std::move(plane.values) : interpolated(plane, view.camera);
 }

@@ -191,8 +191,7 @@ inline HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& ba
         point.normal = worldFromCamera(frame, *segment.cut);
     } else if (kept.normalAt >= 0) {
         const SmoothNormal smooth = smoothNormalAt(kept, values, weights);
-        lit = smooth.any;
-        point.normal = smooth.normal;
+        point.normal = keep(smooth.any, real(1.0f)) * smooth.normal;
     } else if (batch.gradient[j] > 0) {
         point.normal =
             worldFromCamera(frame, vec3(real(batch.normal[0][j]), real(batch.normal[1][j]), real(batch.normal[2][j])));

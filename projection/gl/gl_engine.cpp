@@ -93,12 +93,13 @@ double longestEdge(const mesh::ScalarMesh& mesh, const SceneUnits& units) {
 /// A mean colour shows once in a pixel, other errors of a table as often as there are cells along a ray.
 constexpr double ofMeanColors = 5.0;
 
-/// Silhouettes multiply depth by k, and a table's error with it.
-constexpr double ofSilhouettes = 0.25;
-
 double wantedErrorOf(const Scene& scene) {
-    const double ofMode = scene.settings.mode == Mode::FirstHit ? ofMeanColors : 1.0;
-    return scene.settings.table.wantedError * ofMode * (scene.settings.shading.silhouette ? ofSilhouettes : 1.0);
+    return scene.settings.table.wantedError * (scene.settings.mode == Mode::FirstHit ? ofMeanColors : 1.0);
+}
+
+/// Silhouettes multiply depth by k, which makes faint segments opaque: their colours and extinction have to be right.
+bool asksMeanColors(const Scene& scene) {
+    return scene.settings.mode == Mode::FirstHit || scene.settings.shading.silhouette;
 }
 
 /// Samples ask for colour and extinction at one scalar: there is nothing to integrate.
@@ -110,8 +111,8 @@ preint::PreintegrationTable buildTable(const Scene& scene, const preint::Transfe
                                        const SceneUnits& units) {
     const preint::ExactIntegral exact(function);
     preint::TableOptions options = scene.settings.table;
-    options.meanColors = scene.settings.mode == Mode::FirstHit ||
-                         scene.settings.contributions.any();  // their weights do not know the table's
+    // the weights of contributions do not know the table's
+    options.meanColors = asksMeanColors(scene) || scene.settings.contributions.any();
     options.evenTexelsFirst = !options.meanColors;
     options.wantedError = wantedErrorOf(scene);
     if (takesSamples(scene)) options.size = 2;  // only its zones are asked for

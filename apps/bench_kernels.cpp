@@ -126,8 +126,8 @@ void tileBins(benchmark::State& state) {
             for (std::size_t i = chunks[c].begin; i < chunks[c].begin + chunks[c].count; ++i)
                 for (int x = survivors[i].x0; x <= survivors[i].x1; ++x)
                     ++bins.counts(c)[survivors[i].y0 * binTiles + x];
-        bins.fill(survivors.data(), chunks, 1.0, 0.0);
-        bins.sort();
+        bins.fill(survivors.data(), chunks, 1.0, 0.0, nullptr, nullptr);
+        bins.sort(nullptr);
         benchmark::DoNotOptimize(bins.entryCount());
     }
     countCells(state, survivors.size());

@@ -156,9 +156,9 @@ TEST(MeshCut, BoundariesEncloseTheMesh) {
 
 TEST(MeshCut, FieldsAreCarriedOn) {
     const ScalarMesh mesh = bumpyBall(0.05);
-    TetMesh whole{mesh.positions, mesh.cells, {}};
+    TetMesh whole{{mesh.positions.begin(), mesh.positions.end()}, {mesh.cells.begin(), mesh.cells.end()}, {}};
     Field place{"place", Association::Point, 3, {}}, number{"number", Association::Cell, 1, {}},
-        scalar{"s", Association::Point, 1, mesh.scalars};
+        scalar{"s", Association::Point, 1, {mesh.scalars.begin(), mesh.scalars.end()}};
     for (const glm::dvec3& p : mesh.positions) place.values.insert(place.values.end(), {p.x, p.y, p.z});
     for (std::size_t i = 0; i < mesh.cells.size(); ++i) number.values.push_back(static_cast<double>(i));
     whole.fields = {place, number, scalar};

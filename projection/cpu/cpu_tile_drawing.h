@@ -255,7 +255,7 @@ private:
         } else if constexpr (Kind == TileKind::Additive) {
             drawAdditive(block, t, first, last, segments);
         } else if constexpr (Kind == TileKind::Depth) {
-            drawFirstShown(j, at, in, rayLength, t, first, last, segments);
+            drawFirstShown(block, t, first, last, segments);
         } else if constexpr (Kind == TileKind::Contribution) {
             ContributionSink sink{real(0.0f), real(0.0f)};
             integrateScaled(first, last, segments, real(1.0f), sink);
@@ -288,12 +288,12 @@ private:
         pixels.rayLength = block.rayLength;
         pixels.inverse = loadAt(px_.inverseLength + block.at);
         if constexpr (look != Look::Silhouettes && !Orthographic) {
-            const vec3 direction = perDepth(block);
+            const vec3 direction = perDepth(block.x, block.y);
             pixels.x = direction.x;
             pixels.y = direction.y;
         }
         if constexpr (look == Look::Lamps) {
-            if (frame_.look.places) pixels.place = middlePlace(block, pixels.inverse * perDepth(block));
+            if (frame_.look.places) pixels.place = middlePlace(block);
         }
         LookedSegments<look, Orthographic, ScaleInvariant, Peaks, shows>{frame_, peakLooks_, look_, pixels, segments}
             .add(first, last, sink);
@@ -306,6 +306,8 @@ private:
         sink.begin();
         if constexpr (Limited)
             classify(block, first, last, segments, sink);
+        else if (ScaleInvariant && frame_.shading->silhouette)
+            integrateScaled(first, last, segments, real(1.0f), sink);
         else
             integrate(first, last, segments, sink);
         const ShadedSegment shaded = shade(block, sink, segments);
@@ -326,13 +328,14 @@ private:
 
     HWY_INLINE ShadedSegment shade(const Block& block, const SegmentSink& sink, const Segments& segments) {
         vec3 towards(real(0.0f), real(0.0f), real(1.0f));
-        if constexpr (!Orthographic) towards = reciprocal(block.rayLength) * perDepth(block);
+        if constexpr (!Orthographic) towards = reciprocal(block.rayLength) * perDepth(block.x, block.y);
         const auto middles = [&]() HWY_ATTR {
             return segmentMiddles<Orthographic>(block.dx, block.dy, block.in, block.out);
         };
-        const auto place = [&]() HWY_ATTR { return middlePlace(block, towards); };
+        const auto place = [&]() HWY_ATTR { return middlePlace(block); };
         ShadedSegment shaded = shadeAs(block, sink, segments, towards, middles, place);
-        if (HWY_UNLIKELY(frame_.shading->depthColor.has_value())) colorByDepth(frame_, middleDistance(block), shaded);
+        if (HWY_UNLIKELY(frame_.shading->depthColor.has_value()))
+            colorByDepth(frame_, distanceBeyond(block.x, block.y, middleBeyond(block), block.rayLength), shaded);
         return shaded;
     }
 
@@ -353,27 +356,40 @@ private:
         }
     }
 
-    /// Along the rays to the segments' middles, scene lengths.
-    HWY_INLINE real middleDistance(const Block& block) const {
-        const real half(0.5f), scale(batch_.scale[block.j]);
-        if constexpr (Orthographic) return scale - abs(scale) * (half * (block.in + block.out));
-        const real ratio = half * (reciprocal(real(1.0f) + block.in) + reciprocal(real(1.0f) + block.out));
-        return scale * ratio * block.rayLength;
+    /// How much deeper than TileFrame::depthReference rays are at rho, scene lengths: from nearness, which holds it
+    /// however far the eye is.
+    HWY_INLINE real depthBeyond(std::size_t j, real rho) const {
+        const real nearness = real(batch_.nearness[j]) + real(batch_.nearnessPerRho[j]) * rho;
+        if constexpr (Orthographic) return -nearness;
+        return real(-frame_.depthReference) * nearness * reciprocal(real(1.0f) + nearness);
+    }
+    HWY_INLINE real middleBeyond(const Block& block) const {
+        return real(0.5f) * (depthBeyond(block.j, block.in) + depthBeyond(block.j, block.out));
     }
 
-    /// The segments' middles from the eye: (right, down, forward), scene lengths.
-    HWY_INLINE vec3 middlePlace(const Block& block, vec3 towards) const {
-        const real distance = middleDistance(block);
-        if constexpr (!Orthographic) return distance * towards;
-        const vec3 beside = perDepth(block);
-        return {beside.x, beside.y, distance};
+    /// The distance along rays at a depth that is `beyond` the reference's, less the reference's own depth.
+    HWY_INLINE real distanceBeyond(int x, int y, real beyond, real rayLength) const {
+        if constexpr (Orthographic) return beyond;
+        const vec3 ray = perDepth(x, y);
+        const real square = ray.x * ray.x + ray.y * ray.y;
+        return beyond * rayLength + real(frame_.depthReference) * square * reciprocal(real(1.0f) + rayLength);
+    }
+
+    /// The segments' middles from the point on the view's axis at TileFrame::depthReference: (right, down, forward),
+    /// scene lengths.
+    HWY_INLINE vec3 middlePlace(const Block& block) const {
+        const real beyond = middleBeyond(block);
+        const vec3 ray = perDepth(block.x, block.y);
+        if constexpr (Orthographic) return {ray.x, ray.y, beyond};
+        const real depth = real(frame_.depthReference) + beyond;
+        return {depth * ray.x, depth * ray.y, beyond};
     }
 
     /// The rays' directions with a depth of 1 (orthographic: the rays' places), (right, down, forward).
-    HWY_INLINE vec3 perDepth(const Block& block) const {
+    HWY_INLINE vec3 perDepth(int x, int y) const {
         const real pixel(frame_.pixel);
-        return {pixel * (laneX_ + real(x0_ + block.x - frame_.centre.x)),
-                pixel * (laneY_ + real(y0_ + block.y - frame_.centre.y)), real(1.0f)};
+        return {pixel * (laneX_ + real(x0_ + x - frame_.centre.x)), pixel * (laneY_ + real(y0_ + y - frame_.centre.y)),
+                real(1.0f)};
     }
 
     HWY_INLINE real rhoOfNearness(std::size_t j, real nearness) const {
@@ -386,14 +402,19 @@ private:
         in = min(in, rhoOfNearness(j, loadAt(limits_.nearest + at)));
     }
 
+    /// The scale-invariant path, not quite 0 along a level set where silhouettes multiply it by as much as it lacks.
+    HWY_INLINE real dataPath(const Segments& segments) const {
+        return Kind != TileKind::Contribution && frame_.shading->silhouette ? variationOf(segments) : abs(segments.back - segments.front);
+    }
+
     /// Either integral with scaled extinction is the standard one over another path.
     template <class Sink>
     HWY_INLINE void integrateScaled(std::size_t first, std::size_t last, const Segments& segments, real scale,
                                     Sink& sink) const {
         Segments scaled = segments;
-        scaled.length = scale * (frame_.scaleInvariant ? abs(segments.back - segments.front) : segments.length);
+        scaled.length = scale * (frame_.scaleInvariant ? dataPath(segments) : segments.length);
         scaled.length = keep(segments.live, scaled.length);
-        integrate(first, last, scaled, sink);
+        addAlong<false>(*frame_.transfer, first, last, scaled, sink);
     }
 
     HWY_INLINE void classify(const Block& block, std::size_t first, std::size_t last, const Segments& segments,
@@ -403,7 +424,7 @@ private:
             return integrateScaled(first, last, segments, sink.scale, sink);
         const auto middles = segmentMiddles<Orthographic>(block.dx, block.dy, block.in, block.out);
         const Sample sample = segmentSample(frame_, batch_, block.j, middles, first, last, segments);
-        const real path = frame_.scaleInvariant ? abs(segments.back - segments.front) : segments.length;
+        const real path = frame_.scaleInvariant ? dataPath(segments) : segments.length;
         sink.addSample(sample.r, sample.g, sample.b, sample.extinction * (sink.scale * path));
     }
 
@@ -454,13 +475,14 @@ private:
         storeAt(t + keep(segments.live, depth), px_.t + at);
     }
 
-    /// Distance along the ray (scene lengths) to what is first seen.
-    HWY_INLINE void drawFirstShown(std::size_t j, std::size_t at, real in, real rayLength, real t, std::size_t first,
-                                   std::size_t last, const Segments& segments) {
+    /// Distance along the ray (scene lengths, beyond TileFrame::depthReference) to what is first seen.
+    HWY_INLINE void drawFirstShown(const Block& block, real t, std::size_t first, std::size_t last,
+                                   const Segments& segments) {
+        const std::size_t at = block.at;
         const FirstShown shown = firstShown(*frame_.transfer, first, last, segments);
         if (none(shown.shown)) return;
-        const real scale(batch_.scale[j]);
-        const real begin = Orthographic ? scale - abs(scale) * in : real(scale * rayLength) / (real(1.0f) + in);
+        const real begin =
+            distanceBeyond(block.x, block.y, depthBeyond(block.j, block.in), block.rayLength);
         const real step = segments.back - segments.front;
         const real share = select(abs(step) > real(0.0f), (shown.scalar - segments.front) / step, real(0.0f));
         const real distance = begin + clamp(share, real(0.0f), real(1.0f)) * segments.length;

@@ -16,12 +16,12 @@ bool segmentShows(float front, float back) {
     bool shows = false;
 #if TETRALUX_SUPPORTS
     for (int i = 0; i < TETRALUX_SUPPORTS; ++i) {
-        shows = shows || (high > support[i].x && low < support[i].y);
+        shows = shows || showsBetween(low, high, support[i].x, support[i].y, support[i].z > 0.0);
     }
 #endif
 #if TETRALUX_INTERFACES
     for (int i = 0; i < TETRALUX_INTERFACES; ++i) {
-        shows = shows || (interfaceLayer[i].w > 0.0 && low < interfaceValue[i] && interfaceValue[i] <= high);
+        shows = shows || (interfaceLayer[i].w > 0.0 && crossesValue(front, back, interfaceValue[i]));
     }
 #endif
     return shows;
@@ -33,6 +33,15 @@ uniform vec2 depthRange;  // share of the way to the far end: at distance 0, per
 float depthShare;         // how much of depthColor the segment takes
 #endif
 
+// The scale-invariant path, not quite 0 along a level set where silhouettes multiply it by as much as it lacks.
+float dataPath(float front, float back) {
+#if TETRALUX_SILHOUETTE
+    return max(abs(front - back), 1e-18);
+#else
+    return abs(front - back);
+#endif
+}
+
 // Colour per α and α of a segment in view direction `view` (unit, towards the eye); `gradient` is the unit normal and
 // |g|, both zero where the scalar is constant; `fallSide` the sign of
 // s_f − s_b. `cutNormal` is lit where it is not zero. In modes that hide nothing depth stands
@@ -40,13 +49,13 @@ float depthShare;         // how much of depthColor the segment takes
 vec4 shadedSegment(float front, float back, float len, float fallSide, vec3 view, vec4 gradient, vec3 cutNormal) {
     float path = len;
 #if TETRALUX_DATA_SPACE && !TETRALUX_SCALE_INVARIANT
-    path = abs(front - back);  // looked up as a length, so that it can be scaled
+    path = dataPath(front, back);  // looked up as a length, so that it can be scaled
 #endif
     path *= interfaceScale;
 #if TETRALUX_MODE == TETRALUX_MODE_ADDITIVE
     Gathered segment = emittedSegment(front, back, path);
 #elif TETRALUX_SAMPLED
-    Gathered segment = sampledSegment(front, back, TETRALUX_DATA_SPACE != 0 ? abs(front - back) * interfaceScale : path);
+    Gathered segment = sampledSegment(front, back, TETRALUX_DATA_SPACE != 0 ? dataPath(front, back) * interfaceScale : path);
 #else
     Gathered segment = gatherSegment(front, back, path);
 #endif
@@ -58,7 +67,7 @@ vec4 shadedSegment(float front, float back, float len, float fallSide, vec3 view
 #if TETRALUX_SCALE_INVARIANT
     float perScalar = segment.meanExtinction;
 #else
-    float perScalar = segment.smoothDepth / max(abs(front - back), 1e-30);
+    float perScalar = segment.smoothDepth / dataPath(front, back);
 #endif
     float sharpened = silhouetteDepth(perScalar * gradient.w * len, segment.otherDepth, cosine);
 #else

@@ -18,6 +18,7 @@
 
 #define TETRALUX_GLSL_FUNCTION inline
 #define TETRALUX_GLSL_INOUT(type) type&
+#define TETRALUX_GLSL_BOOL bool
 
 namespace tetralux::glsl {
 
@@ -41,6 +42,10 @@ using glm::sqrt;
 template <class T>
 T select(bool condition, const T& ifTrue, const T& ifFalse) {
     return condition ? ifTrue : ifFalse;
+}
+
+inline bool exactlyOne(bool a, bool b) {
+    return a != b;
 }
 
 }  // namespace tetralux::glsl

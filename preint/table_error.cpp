@@ -81,6 +81,26 @@ struct Sampler {
         }
     }
 
+    /// Within and across neighbouring nodes so near to each other that chance hardly falls between them: nodes over many
+    /// decades are.
+    void addNarrowSegments() {
+        constexpr double narrow = 1e-3;  // of the range
+        constexpr int perPair = 40;
+        std::vector<double> ascending = nodes;
+        std::sort(ascending.begin(), ascending.end());
+        for (std::size_t i = 0; i + 1 < ascending.size(); ++i) {
+            const double begin = ascending[i], end = ascending[i + 1];
+            if (!(end > begin) || end - begin > narrow * (high - low)) continue;
+            for (int k = 0; k < perPair; ++k) {
+                const double front = std::lerp(begin, end, random()), back = std::lerp(begin, end, random());
+                if (k % 2 == 0)
+                    addSegment(front, back);
+                else
+                    addLongSegment(front, k % 4 == 1 ? back : std::lerp(begin, 2.0 * end - begin, random()));
+            }
+        }
+    }
+
     /// A ray whose scalar follows `path` of [0, 1]; steps and lengths vary at random.
     void addRay(int steps, const std::function<double(double)>& path) {
         SampleRay ray;
@@ -149,6 +169,7 @@ std::vector<SampleRay> sampleRays(const ExactIntegral& exact, const Preintegrati
     std::erase_if(sampler.nodes, [&](double scalar) { return scalar < low || scalar > high; });
     if (sampler.nodes.empty()) sampler.nodes.push_back(0.5 * (low + high));
     sampler.addSegments();
+    sampler.addNarrowSegments();
     sampler.addRays();
     return std::move(sampler.rays);
 }

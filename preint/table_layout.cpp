@@ -28,7 +28,8 @@ std::vector<double> jumpsWithin(const TransferFunction& function, double low, do
     addJumps(function.extinction, &ExtinctionNode::extinction, jumps);
     std::sort(jumps.begin(), jumps.end());
     jumps.erase(std::unique(jumps.begin(), jumps.end()), jumps.end());
-    std::erase_if(jumps, [&](double scalar) { return !(scalar > low && scalar < high); });
+    // at the largest scalar the value is that from above, in a zone of its own
+    std::erase_if(jumps, [&](double scalar) { return !(scalar > low && scalar <= high); });
     return jumps;
 }
 
@@ -93,7 +94,7 @@ std::vector<double> strongestKinks(const ExactIntegral& exact, double low, doubl
 std::vector<glm::dvec3> extinctionRamps(const ExactIntegral& exact, double low, double high) {
     std::vector<double> scalars{low};
     for (const ExtinctionNode& node : exact.function().extinction) {
-        if (node.scalar > scalars.back() && node.scalar < high) scalars.push_back(node.scalar);
+        if (node.scalar > scalars.back() && node.scalar <= high) scalars.push_back(node.scalar);
     }
     std::vector<glm::dvec3> ramps;
     double slope = 0.0;

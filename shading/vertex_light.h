@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <mesh/tet/tet_mesh.h>
@@ -27,7 +28,7 @@ struct VertexLight {
     std::vector<mesh::Tetrahedron> corners;
 
     bool any() const { return stride > 0; }
-    const mesh::Tetrahedron& cornersOf(const std::vector<mesh::Tetrahedron>& cells, mesh::CellIndex cell) const {
+    const mesh::Tetrahedron& cornersOf(std::span<const mesh::Tetrahedron> cells, mesh::CellIndex cell) const {
         return corners.empty() ? cells[cell] : corners[cell];
     }
     float* of(std::size_t row) { return values.data() + row * static_cast<std::size_t>(stride); }

@@ -30,7 +30,7 @@ struct CellRecord {
     float scalar;                ///< at c, scene units
     float scalarPerX, scalarPerY, scalarPerRho;
     float scalarLow, scalarHigh;  ///< over the cell's vertices, scene units
-    float scale;                  ///< z_c, scene lengths; orthographic: may be negative, L = |scale|
+    float scale;  ///< z_c, scene lengths, less CameraFrame::depthOrigin; orthographic: z_c may be negative, L = |z_c|
 };
 static_assert(sizeof(CellRecord) == 24 * sizeof(float));
 

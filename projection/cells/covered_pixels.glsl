@@ -10,6 +10,7 @@ struct CellView {
     Pair centre;
     int width, height;
     bool orthographic;
+    wide depthOrigin;  // CameraFrame::depthOrigin
 };
 
 // Pixels [x0, x1) × [y0, y1).
@@ -116,6 +117,6 @@ TETRALUX_CELL_FUNCTION wide recordValue(int i, TETRALUX_CELL_IN(ProjectedCell) c
         case 20: return cell.scalarPerRho;
         case 21: return min(min(s[0], s[1]), min(s[2], s[3]));
         case 22: return max(max(s[0], s[1]), max(s[2], s[3]));
-        default: return reference.depth;
+        default: return reference.depth - view.depthOrigin;
     }
 }

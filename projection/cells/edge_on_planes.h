@@ -35,6 +35,9 @@ private:
     double perLength_;
 };
 
+/// What a face that is seen edge-on may seem higher by in float pixel coordinates: pixels, and a share of the coordinates.
+inline constexpr float edgeOnPixel = 1e-3f, edgeOnShare = 1e-6f;
+
 /// The frame of a camera with its samples where they belong.
 CameraFrame sampledFrame(const Camera& camera, const EdgeOnPlanes& planes);
 

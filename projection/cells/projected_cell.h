@@ -44,7 +44,7 @@ inline double copySign(double magnitude, double sign) {
 #undef TETRALUX_CELL_INOUT
 
 inline CellView viewOf(const CameraFrame& frame) {
-    return {sampleCentre(frame), frame.width, frame.height, frame.orthographic};
+    return {sampleCentre(frame), frame.width, frame.height, frame.orthographic, frame.depthOrigin};
 }
 
 /// Puts `order`, by which the numbers of `points` then ascend, in place of 0 1 2 …; true when that turns a cell inside

@@ -14,8 +14,14 @@ namespace {
 /// Least reference depth, scene lengths.
 constexpr double leastDepthReference = 0.5;
 
+/// Shaders read it as float, and what is beyond it counts from that.
+double roundedToFloat(double depth) {
+    return static_cast<double>(static_cast<float>(depth));
+}
+
 float nearnessOf(double depth, double depthReference, bool orthographic) {
     const double most = static_cast<double>(noNearnessLimit);
+    if (std::isinf(depth)) return depth > 0 ? -noNearnessLimit : noNearnessLimit;  // nothing is nearer, or all is
     double nearness = depthReference - depth;
     if (!orthographic) nearness = depth > 0 ? nearness / depth : most;
     return static_cast<float>(std::clamp(nearness, -most, most));
@@ -43,8 +49,7 @@ NearnessMaps nearnessMaps(const PixelMaps& maps, const CameraFrame& frame, const
             };
             // what lies before the eye limits nothing there
             if (!maps.nearest.empty()) result.nearest[i] = maps.nearest[i] > 0 ? at(maps.nearest[i]) : noNearnessLimit;
-            if (!maps.farthest.empty())
-                result.farthest[i] = std::isinf(maps.farthest[i]) ? -noNearnessLimit : at(maps.farthest[i]);
+            if (!maps.farthest.empty()) result.farthest[i] = at(maps.farthest[i]);
             if (!maps.cutLayerEnd.empty())
                 result.cutLayerEnd[i] = maps.cutLayerEnd[i] > 0 ? at(maps.cutLayerEnd[i]) : noNearnessLimit;
         }
@@ -54,7 +59,13 @@ NearnessMaps nearnessMaps(const PixelMaps& maps, const CameraFrame& frame, const
 
 double depthReferenceOf(const mesh::BoundingBox& bounds, const CameraFrame& frame, const SceneUnits& units) {
     const double middle = glm::dot(bounds.centre() - frame.eye, frame.forward) / units.length;
-    return frame.orthographic ? middle : std::max(middle, leastDepthReference);
+    return roundedToFloat(frame.orthographic ? middle : std::max(middle, leastDepthReference));
+}
+
+double depthOriginOf(const mesh::BoundingBox& bounds, const CameraFrame& frame, const SceneUnits& units) {
+    constexpr double farAway = 4.0;  // scene lengths, of which the mesh's diagonal is one
+    const double reference = depthReferenceOf(bounds, frame, units);
+    return std::abs(reference) > farAway ? reference : 0.0;
 }
 
 }  // namespace tetralux::projection

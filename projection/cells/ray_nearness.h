@@ -22,4 +22,8 @@ NearnessMaps nearnessMaps(const PixelMaps& maps, const CameraFrame& frame, const
 /// zRef for a camera: about the depth of the mesh's middle, and not too near, since the eye may stand in the mesh.
 double depthReferenceOf(const mesh::BoundingBox& bounds, const CameraFrame& frame, const SceneUnits& units);
 
+/// That depth, as float holds it, where the mesh is so far away that all of it lies about there; else 0. Floats beyond it
+/// keep the mesh's depths at any distance of the eye.
+double depthOriginOf(const mesh::BoundingBox& bounds, const CameraFrame& frame, const SceneUnits& units);
+
 }  // namespace tetralux::projection

@@ -35,6 +35,8 @@ struct CameraFrame {
     /// Fast engines sample this much beside the pixel's centre (pixels), as EdgeOnPlanes says; cells' numbers include
     /// it.
     glm::dvec2 sampleShift{0x1p-32, 0x1p-33};
+    /// Depths in cells' records are beyond this (scene lengths): 0, or the mesh's where the eye is far (depthOriginOf).
+    double depthOrigin = 0.0;
 };
 
 struct Ray {

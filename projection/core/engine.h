@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct FrameReport {
     /// Pixels (y·width + x, ascending) that the engine could not order with certainty; makeEngine's engines have them
     /// composed exactly afterwards and count them as repaired.
     std::vector<std::uint32_t> doubtfulPixels;
+    /// Cells among which those are that have a face seen edge-on (edge_on_faces.h), where the engine tells.
+    std::optional<std::vector<mesh::CellIndex>> cellsEdgeOn;
     bool samplesBeside = false;        ///< by EdgeOnPlanes::widely, so that outlines within that are doubtful too
     std::uint64_t pixelsRepaired = 0;  ///< composed by the reference
     /// Doubtful pixels that were not repaired: 0 but for OrderMethod::Centroid. cpu tells those in which it sees cells

@@ -46,6 +46,7 @@ bool composesParts(Mode mode);
 struct DepthRange {
     double nearest, farthest;
     double greyAt(double distance) const { return (farthest - distance) / (farthest - nearest); }
+    double greyPerDistance() const { return -1.0 / (farthest - nearest); }
     /// 0 at the nearest, 1 at the farthest end, within that.
     double shareAt(double distance) const { return std::clamp(1.0 - greyAt(distance), 0.0, 1.0); }
 };

@@ -28,63 +28,44 @@ double longestEdge(const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Appends (low, high); `joined` when its low end has extinction too, and so continues the interval before.
-void append(std::vector<glm::dvec2>& support, double low, double high, bool joined) {
-    if (joined && !support.empty() && support.back().y == low) {
-        support.back().y = high;
+// Appends what lies between two nodes; where its low end has extinction too, that continues the interval before.
+void append(std::vector<ShownScalars>& support, double low, double high, bool lowShows) {
+    if (lowShows && !support.empty() && support.back().high == low) {
+        support.back().high = high;
     } else {
-        support.emplace_back(low, high);
+        support.push_back({low, high, lowShows});
     }
+}
+
+bool crossesIsosurface(const preint::TransferFunction& function, double low, double high) {
+    return std::any_of(function.isosurfaces.begin(), function.isosurfaces.end(),
+                       [&](const preint::Isosurface& surface) {
+                           return surface.opacity > 0 && glsl::crossesValue(low, high, surface.value);
+                       });
 }
 
 }  // namespace
 
-namespace {
-
-/// `lowered(s)` is where an interval begins whose extinction jumps up at s.
-template <class Lowered>
-std::vector<glm::dvec2> supportOf(const preint::TransferFunction& function, Lowered lowered) {
-    std::vector<glm::dvec2> support;
+std::vector<ShownScalars> extinctionSupport(const preint::TransferFunction& function) {
+    std::vector<ShownScalars> support;
     const auto& nodes = function.extinction;
     if (nodes.empty()) return support;
-    if (nodes.front().extinction > 0) support.emplace_back(-infinity, nodes.front().scalar);
+    if (nodes.front().extinction > 0) append(support, -infinity, nodes.front().scalar, false);
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
         const auto &low = nodes[i], &high = nodes[i + 1];
         if (low.scalar == high.scalar || (low.extinction <= 0 && high.extinction <= 0)) continue;
-        const bool jumpsUp = low.extinction > 0 && function.extinctionAt(low.scalar) > 0 &&
-                             (support.empty() || support.back().y != low.scalar);
-        append(support, jumpsUp ? lowered(low.scalar) : low.scalar, high.scalar, low.extinction > 0);
+        append(support, low.scalar, high.scalar, low.extinction > 0);
     }
     if (nodes.back().extinction > 0) append(support, nodes.back().scalar, infinity, true);
     return support;
 }
 
-}  // namespace
-
-std::vector<glm::dvec2> extinctionSupport(const preint::TransferFunction& function) {
-    return supportOf(function, [](double scalar) { return std::nextafter(scalar, -infinity); });
-}
-
-std::vector<glm::vec2> floatExtinctionSupport(const preint::TransferFunction& function) {
-    const auto& nodes = function.extinction;
-    const double nudge = nodes.empty() ? 0.0 : 1e-7 * (nodes.back().scalar - nodes.front().scalar);
-    std::vector<glm::vec2> support;
-    for (const glm::dvec2& interval : supportOf(function, [&](double scalar) { return scalar - nudge; }))
-        support.push_back(glm::clamp(glm::vec2(interval), -3e38f, 3e38f));
-    return support;
-}
-
-bool rangeShows(const preint::TransferFunction& function, const std::vector<glm::dvec2>& support, double low,
+bool rangeShows(const preint::TransferFunction& function, const std::vector<ShownScalars>& support, double low,
                 double high, preint::Integral integral) {
     if (integral == preint::Integral::ScaleInvariant && low == high) return false;
-    if (std::any_of(support.begin(), support.end(),
-                    [&](const glm::dvec2& interval) { return high > interval.x && low < interval.y; })) {
-        return true;
-    }
-    return std::any_of(function.isosurfaces.begin(), function.isosurfaces.end(),
-                       [&](const preint::Isosurface& surface) {
-                           return surface.opacity > 0 && low < surface.value && surface.value <= high;
-                       });
+    return std::any_of(support.begin(), support.end(),
+                       [&](const ShownScalars& shown) { return shown.meets(low, high); }) ||
+           crossesIsosurface(function, low, high);
 }
 
 namespace {
@@ -105,16 +86,38 @@ std::optional<glm::dvec3> onlyColor(const preint::TransferFunction& function) {
         differs = differs || (only && *only != color);
         only = color;
     };
-    for (const glm::dvec2& interval : extinctionSupport(function)) {
-        meet(function.colorAt(std::max(interval.x, -far)));
-        meet(function.colorAt(std::nextafter(std::min(interval.y, far), -far)));
+    for (const ShownScalars& shown : extinctionSupport(function)) {
+        meet(function.colorAt(std::max(shown.low, -far)));
+        meet(function.colorAt(std::nextafter(std::min(shown.high, far), -far)));
         for (const preint::ColorNode& node : function.color)
-            if (node.scalar > interval.x && node.scalar < interval.y) meet(node.color);
+            if (node.scalar > shown.low && node.scalar < shown.high) meet(node.color);
     }
     for (const preint::Isosurface& surface : function.isosurfaces)
         if (surface.opacity > 0) meet(surface.color);
     if (differs) return std::nullopt;
     return only.value_or(glm::dvec3(0));
+}
+
+ScalarColors::ScalarColors(const preint::TransferFunction& function, bool exact) : function_(function) {
+    constexpr double rounding = 0x1p-21, largestChange = 5e-5;  // of scalars, and of a colour
+    auto& nodes = function_.color;
+    for (preint::ColorNode& node : nodes) node.scalar = static_cast<double>(static_cast<float>(node.scalar));
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        const glm::dvec3 change = glm::abs(nodes[i + 1].color - nodes[i].color);
+        const double width = nodes[i + 1].scalar - nodes[i].scalar, most = std::max({change.x, change.y, change.z});
+        if (!(most * std::min(1.0, 2.0 * rounding / std::max(width, 1e-300)) > largestChange)) continue;
+        if (exact && function.color[i].scalar == function.color[i + 1].scalar) continue;
+        const glm::vec2 range(nodes[i].scalar - rounding, nodes[i + 1].scalar + rounding);
+        if (!doubtful_.empty() && range.x <= doubtful_.back().y)
+            doubtful_.back().y = range.y;
+        else
+            doubtful_.push_back(range);
+    }
+}
+
+bool ScalarColors::doubts(float scalar) const {
+    return std::any_of(doubtful_.begin(), doubtful_.end(),
+                       [&](const glm::vec2& range) { return scalar >= range.x && scalar <= range.y; });
 }
 
 CellVisibility::CellVisibility(const mesh::ScalarMesh& mesh, const preint::TransferFunction& function,
@@ -129,9 +132,7 @@ bool CellVisibility::shows(mesh::CellIndex cell) const {
     const glm::dvec2 scalars = scalarRange(mesh_, cell);
     const double low = scalars.x, high = scalars.y;
     if (!rangeShows(exact_.function(), support_, low, high, integral_)) return false;
-    const auto& surfaces = exact_.function().isosurfaces;
-    if (std::any_of(surfaces.begin(), surfaces.end(), [&](const auto& s) { return low < s.value && s.value <= high; }))
-        return true;
+    if (crossesIsosurface(exact_.function(), low, high)) return true;
     const double extent = integral_ == preint::Integral::ScaleInvariant ? high - low : longestEdge(mesh_, cell);
     return exact_.largestExtinction(low, high) * extent > leastDepth_;
 }

@@ -12,17 +12,22 @@
 
 #include <preint/exact_integral.h>
 #include <preint/transfer_function.h>
+#include <preint/value_from_above.h>
 #include <projection/core/scene.h>
 
 namespace tetralux::projection {
 
-/// The open intervals of scalars (low, high) with extinction, ascending, disjoint; −∞ and ∞ where an outer node has
-/// extinction. A low end at which the extinction jumps up holds itself (the value there is that from above): it is
-/// moved down by the least step of double.
-std::vector<glm::dvec2> extinctionSupport(const preint::TransferFunction& function);
+/// Scalars between `low` and `high` that have extinction; −∞ and ∞ where an outer node has some.
+struct ShownScalars {
+    double low, high;
+    bool lowShows;  ///< so has `low` itself: the extinction jumps up there, and the value at a jump is that from above
 
-/// The same for who compares floats: such ends are moved down by 1e-7 of the nodes' range.
-std::vector<glm::vec2> floatExtinctionSupport(const preint::TransferFunction& function);
+    /// Whether a segment over scalars from `least` to `most` has any.
+    bool meets(double least, double most) const { return glsl::showsBetween(least, most, low, high, lowShows); }
+};
+
+/// All of a function's, ascending, disjoint.
+std::vector<ShownScalars> extinctionSupport(const preint::TransferFunction& function);
 
 /// The least (x) and the largest (y) scalar of a cell.
 inline glm::dvec2 scalarRange(const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {
@@ -35,12 +40,29 @@ inline glm::dvec2 scalarRange(const mesh::ScalarMesh& mesh, mesh::CellIndex cell
 }
 
 /// Whether segments with scalars within [low, high] can have opacity.
-bool rangeShows(const preint::TransferFunction& function, const std::vector<glm::dvec2>& support, double low,
+bool rangeShows(const preint::TransferFunction& function, const std::vector<ShownScalars>& support, double low,
                 double high, preint::Integral integral);
 
 /// The colour that all has that can be seen, if there is just one (black when nothing is seen): then the order of cells
 /// does not matter.
 std::optional<glm::dvec3> onlyColor(const preint::TransferFunction& function);
+
+/// The colour of one scalar that was gathered in float (extreme and mean scalars).
+class ScalarColors {
+public:
+    /// `function` in the units of the scalars (0 … 1). `exact`: they are neither interpolated nor summed, so that one that is a
+    /// node's is the same float; then the value at a jump is that from above.
+    ScalarColors(const preint::TransferFunction& function, bool exact);
+
+    glm::dvec3 at(float scalar) const { return function_.colorAt(static_cast<double>(scalar)); }
+
+    /// Whether rounding of the scalar may show.
+    bool doubts(float scalar) const;
+
+private:
+    preint::TransferFunction function_;   // its nodes rounded as scalars are
+    std::vector<glm::vec2> doubtful_;     // ascending, disjoint: scalars near which the colour changes steeply
+};
 
 /// Which cells of a mesh show anything at all.
 class CellVisibility {
@@ -57,7 +79,7 @@ private:
     const mesh::ScalarMesh& mesh_;
     preint::Integral integral_;
     preint::ExactIntegral exact_;
-    std::vector<glm::dvec2> support_;
+    std::vector<ShownScalars> support_;
     double leastDepth_;
 };
 

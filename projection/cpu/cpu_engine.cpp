@@ -75,6 +75,8 @@ public:
           edgeOnPlanes_(mesh_),
           transfer_(inSceneUnits(scene.transferFunction, units_, integralOf(scene.settings.mode)),
                     scene.settings.everyNode ? 0.0 : nodeTolerance),
+          scalarColors_(inSceneUnits(scene.transferFunction, units_, integralOf(scene.settings.mode)),
+                        mesh_.association == mesh::Association::Cell && scene.settings.mode != Mode::Average),
           memory_(scene.frameMemory ? scene.frameMemory->take<CpuFrameMemory>() : std::make_shared<CpuFrameMemory>()) {
         prepare();
     }
@@ -99,6 +101,7 @@ public:
         report.samplesBeside = cameraFrame_.sampleShift == EdgeOnPlanes::widely;
         report.cellsSkipped = skipped_;
         report.cellsDrawn = cellsDrawn_;
+        report.cellsEdgeOn = edgeOn_;
         report.orderMethod = order_.method;
         report.orderCycles = order_.cyclicCells;
         report.orderUpkeep = order_.method == "none" ? "none" : order_.upkeep;
@@ -135,6 +138,7 @@ private:
     const SceneUnits units_;
     const EdgeOnPlanes edgeOnPlanes_;
     const CpuTransfer transfer_;
+    const ScalarColors scalarColors_;
     std::shared_ptr<CpuFrameMemory> memory_;
     std::map<std::string, double> prepareMilliseconds_;
 
@@ -155,6 +159,7 @@ private:
     int tilesX_ = 0, tilesY_ = 0;
     CpuFrameOrder order_;
     std::uint64_t cellsDrawn_ = 0;
+    std::vector<mesh::CellIndex> edgeOn_;
     std::map<std::string, std::uint64_t> skipped_;
 };
 
@@ -204,6 +209,7 @@ void CpuEngine::prepare() {
     frame_.scalarScale = units_.scalarScale;
     frame_.cellData = mesh_.association == mesh::Association::Cell;
     frame_.transfer = &transfer_;
+    frame_.scalarColors = &scalarColors_;
     frame_.scaleInvariant = integralOf(scene_.settings.mode) == preint::Integral::ScaleInvariant;
     const auto& shading = scene_.settings.shading;
     vertexLight_ = vertexLightOf(scene_);
@@ -270,7 +276,7 @@ void CpuEngine::setFrame() {
     frame_.orderTolerance = static_cast<float>(orderRounding / (frame.orthographic ? 1.0 : frame_.depthReference));
     const auto& shading = scene_.settings.shading;
     frame_.axes = {glm::vec3(frame.right), glm::vec3(-frame.up), glm::vec3(frame.forward)};
-    frame_.fullLights = frameLights(shading, units_, frame);
+    frame_.fullLights = frameLights(shading, units_, frame, frame_.depthReference);
     frame_.lights.clear();
     for (const auto& light : shading.lights) {
         const glm::dvec3 towards = glm::normalize(light.towards);
@@ -292,8 +298,8 @@ void CpuEngine::setLimits(const View& view) {
                frame_.kind == TileKind::Depth || frame_.contributions.perCell ||
                (frame_.kind == TileKind::Absorption && shading.needsGradient() && !quickDepth());
     const DepthRange range = depthRange(mesh_.bounds, view.camera);
-    frame_.greyOfZero = range.greyAt(0.0);
-    frame_.greyPerDistance = range.greyAt(units_.length) - frame_.greyOfZero;
+    frame_.greyOfReference = range.greyAt(frame_.depthReference * units_.length);
+    frame_.greyPerDistance = range.greyPerDistance() * units_.length;
 }
 
 void CpuEngine::makeLists(const View& view, FrameReport& report) {
@@ -361,6 +367,7 @@ CullCounts CpuEngine::cull(const FrameControl* control) {
     memory_->chunks.resize(chunkCount);
     memory_->bins.reset(chunkCount, tilesX_, tilesY_);
     std::vector<CullCounts> counts(chunkCount);
+    std::vector<std::vector<mesh::CellIndex>> edgeOn(chunkCount);
     tbb::parallel_for(std::size_t{0}, chunkCount, [&](std::size_t c) {
         checkStop(control);
         const std::size_t begin = c * chunkSize, end = std::min(candidates, begin + chunkSize);
@@ -371,11 +378,14 @@ CullCounts CpuEngine::cull(const FrameControl* control) {
                             order_.keys,
                             memory_->survivors.get() + begin,
                             tilesX_,
-                            memory_->bins.counts(c)};
+                            memory_->bins.counts(c),
+                            &edgeOn[c]};
         memory_->chunks[c] = {begin, cullCells(frame_, task, counts[c])};
     });
     cellsDrawn_ = 0;
     for (const auto& chunk : memory_->chunks) cellsDrawn_ += chunk.count;
+    edgeOn_.clear();
+    for (const auto& cells : edgeOn) edgeOn_.insert(edgeOn_.end(), cells.begin(), cells.end());
     CullCounts sum;
     for (const auto& count : counts) {
         sum.outsideView += count.outsideView;

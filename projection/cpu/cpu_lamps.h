@@ -63,7 +63,7 @@ struct BlockLook {
     real fall;                ///< scalarFall: its sign is that of s_f − s_b, which is that of v·n
     real rayLength, inverse;  ///< per unit depth, and one over it
     real x, y;                ///< unit direction of a ray: inverse·(x, y, 1), (right, down, forward)
-    vec3 place;  ///< of the segments' middles, (right, down, forward) from the eye: where QuickLook::places
+    vec3 place;  ///< of the segments' middles (middlePlace): where QuickLook::places
 };
 
 /// For a ≥ 0. Whole exponents by squaring.

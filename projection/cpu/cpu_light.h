@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
 /// Light in full (shading/light_model.glsl) in SIMD lanes: what cpu_shading.h's short way does not know. Included once
-/// per instruction set. Directions are along the world's axes here, places relative to the eye.
+/// per instruction set. Directions are along the world's axes here, places as FrameLight has them.
 #include <projection/cpu/cpu_shading_vectors.h>
 
 #include <projection/cpu/cpu_special_cell.h>
@@ -154,7 +154,7 @@ HWY_INLINE vec3 arriving(const FrameLight& light, vec3 place, vec3 view, vec3& t
     }
     if (light.kind == 2) {  // in orthographic views behind each pixel
         towards = view;
-        return attenuation(broadcast(light.fade), -dot(place, view)) * color;
+        return attenuation(broadcast(light.fade), dot(broadcast(light.place) - place, view)) * color;
     }
     const vec3 way = broadcast(light.place) - place;
     const real reach = sqrt(dot(way, way));
@@ -163,7 +163,7 @@ HWY_INLINE vec3 arriving(const FrameLight& light, vec3 place, vec3 view, vec3& t
     return attenuation(broadcast(light.fade), reach) * color;
 }
 
-/// Colour per α in the light. `place`: the segments' middles, (right, down, forward) from the eye, scene lengths.
+/// Colour per α in the light. `place`: the segments' middles, (right, down, forward) from where FrameLight's places are, scene lengths.
 inline HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& batch, std::size_t j,
                                      const SegmentMiddles& middles, vec3 place, const SegmentToLight& segment) {
     LightModel model = broadcastModel(frame.lightModel);

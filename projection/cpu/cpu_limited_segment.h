@@ -182,7 +182,10 @@ struct ClassifiedSegments {
 
     /// Path that extinction is per unit of.
     HWY_INLINE real path() const {
-        return frame.scaleInvariant ? abs(segments.back - segments.front) : segments.length;
+        if (!frame.scaleInvariant) return segments.length;
+        // not quite 0 along a level set where silhouettes multiply it by as much as it lacks
+        return frame.shading->silhouette && !frame.contributions.perCell ? variationOf(segments)
+                                                                         : abs(segments.back - segments.front);
     }
 
     /// Either integral with scaled extinction is the standard one over another path.
@@ -271,8 +274,7 @@ HWY_INLINE FirstShown firstShown(const CpuTransfer& transfer, std::size_t first,
     const mask rising = both(segments.back > segments.front, segments.live),
                falling = both(segments.back < segments.front, segments.live);
     auto meetPeak = [&](const TransferPeak& peak, mask lanes, FirstShown& shown) HWY_ATTR {
-        const real value(peak.value);
-        shown.meet(both(lanes, exactlyOne(segments.front < value, segments.back < value)), value);
+        shown.meet(both(lanes, crossed(peak, segments)), real(peak.value));
     };
     FirstShown result{segments.front, segments.front < segments.front};
     for (std::size_t k = first; k <= last && !none(rising); ++k) {
@@ -286,14 +288,11 @@ HWY_INLINE FirstShown firstShown(const CpuTransfer& transfer, std::size_t first,
         for (std::uint32_t i = pieces[k - 1].peakEnd; i-- > pieces[k - 1].peakBegin;)
             meetPeak(peaks[i], falling, result);
     }
-    // constant along the ray: shown where extinction is more than rounding of the line that gives it
+    // constant along the ray: about the origin of a piece extinction is a sum of what is not negative, and 0 exactly
     const mask constant = both(segments.back == segments.front, segments.live);
     if (!none(constant)) {
-        float slopes = 0.0f;
-        for (std::size_t k = first; k <= last; ++k)
-            slopes = std::max({slopes, pieces[k].extinction, std::abs(pieces[k].extinctionSlope)});
         const Sample sample = sampleAt(transfer, first, last, segments.front);
-        result.meet(both(constant, sample.extinction > real(1e-6f * slopes)), segments.front);
+        result.meet(both(constant, sample.extinction > real(0.0f)), segments.front);
     }
     return result;
 }

@@ -101,7 +101,13 @@ private:
     HWY_INLINE void addAny(std::size_t first, std::size_t last, ColorSink& sink) const {
         SegmentSink whole;
         whole.begin();
-        addAlong<ScaleInvariant>(*frame.transfer, first, last, segments, whole);
+        if (ScaleInvariant && silhouettes()) {
+            Segments varied = segments;
+            varied.length = keep(segments.live, variationOf(segments));
+            addAlong<false>(*frame.transfer, first, last, varied, whole);
+        } else {
+            addAlong<ScaleInvariant>(*frame.transfer, first, last, segments, whole);
+        }
         addWhole(whole, sink);
     }
 
@@ -209,6 +215,8 @@ private:
             high(b, max(segments.front, value), max(segments.back, value));
         const real depth =
             (low.depth + high.depth) * (segments.length * reciprocal(max(abs(segments.back - segments.front), least)));
+        if (HWY_UNLIKELY(!none(both(segments.live, abs(segments.back - segments.front) < real(leastVariation)))))
+            return false;  // along a level set
         const real deepest = max(low.depth, high.depth);
         // V errs by D³/16 there, 1.2e-7 at 1/80: enough for any colour
         const real fineLimit = a.fine && b.fine ? finePieceLimit() : real(0.0125f);
@@ -252,8 +260,7 @@ private:
             const real least(1e-37f);
             real depth(0.0f);
             if constexpr (ScaleInvariant)
-                depth =
-                    whole.smoothDepth * reciprocal(max(abs(segments.back - segments.front), least)) * segments.length;
+                depth = whole.smoothDepth * reciprocal(variationOf(segments)) * segments.length;
             if constexpr (Peaks || !ScaleInvariant) {
                 const real other = ScaleInvariant ? whole.otherDepth : whole.smoothDepth + whole.otherDepth;
                 depth += other * silhouetteFactor(cell, block);

@@ -30,6 +30,11 @@ HWY_INLINE real exp(real a) {
     return hn::Exp(FloatTag(), a.v);
 }
 #include <projection/cpu/cpu_piece.glsl>
+#undef TETRALUX_GLSL_BOOL
+#define TETRALUX_GLSL_BOOL mask
+#define TETRALUX_LANES
+#include <preint/value_from_above.glsl>
+#undef TETRALUX_LANES
 
 /// Premultiplied colour and transmittance, gathered front to back.
 struct ColorSink {
@@ -144,6 +149,15 @@ struct Segments {
     mask live;
 };
 
+/// Scalar steps that paths of the scale-invariant integral have at least where silhouettes make them longer: the limit
+/// of a ray along a level set (Kraus 2005, Equation 17).
+constexpr float leastVariation = 1e-18f;
+
+/// The scale-invariant path of segments that silhouettes will make longer.
+HWY_INLINE real variationOf(const Segments& segments) {
+    return max(abs(segments.back - segments.front), real(leastVariation));
+}
+
 template <bool ScaleInvariant, class Sink>
 HWY_INLINE void addWithinPiece(const TransferPiece& piece, const Segments& segments, Sink& sink) {
     const real half = real(0.5f) * (segments.back - segments.front);
@@ -178,9 +192,11 @@ HWY_INLINE const TransferPeak* onlyPeak(const CpuTransfer& transfer, std::size_t
 }
 
 HWY_INLINE mask crossed(const TransferPeak& peak, const Segments& segments) {
-    const real value(peak.value);
-    return both(segments.live, exactlyOne(segments.front < value, segments.back < value));
+    return both(segments.live, crossesValue(segments.front, segments.back, real(peak.value)));
 }
+
+/// Steps of the scalar that float tells: relative to it, and where it is 0, such that 1 over it is a float too.
+constexpr float leastRelativeStep = 0x1p-22f, leastAbsoluteStep = 1e-34f;
 
 /// More pieces than this and a block's own range of scalars is worth finding.
 constexpr std::size_t fewPieces = 3;
@@ -193,12 +209,12 @@ HWY_INLINE void addAcrossPieces(const CpuTransfer& transfer, std::size_t first, 
     const auto& peaks = transfer.peaks();
     if (const TransferPeak* peak = onlyPeak(transfer, first, last))
         return sink.addPeak(*peak, crossed(*peak, segments));
-    // a step too small to be divided by is made larger: the pieces that it lies in stay the same within 1e-6 of the
-    // range
+    // no step, or one too small to be divided by, becomes a step upwards that float just tells: the value from above
     Segments cut = segments;
-    const real leastStep(1e-6f);
-    if constexpr (!ScaleInvariant)
+    if constexpr (!ScaleInvariant) {
+        const real leastStep = max(real(leastRelativeStep) * abs(segments.front), real(leastAbsoluteStep));
         cut.back = select(abs(segments.back - segments.front) < leastStep, segments.front + leastStep, segments.back);
+    }
     const real step = cut.back - cut.front;
     const mask rising = both(step > real(0.0f), segments.live), falling = both(step < real(0.0f), segments.live);
     const real perScalar = ScaleInvariant ? real(1.0f) : segments.length / abs(step);
@@ -214,8 +230,7 @@ HWY_INLINE void addAcrossPieces(const CpuTransfer& transfer, std::size_t first, 
             addPart<true, ScaleInvariant>(pieces[k], cut, perScalar, sink);
             if (k == last) break;
             for (std::uint32_t i = pieces[k].peakBegin; i < pieces[k].peakEnd; ++i) {
-                const real value(peaks[i].value);
-                sink.addPeak(peaks[i], both(rising, exactlyOne(segments.front < value, segments.back < value)));
+                sink.addPeak(peaks[i], both(rising, crossed(peaks[i], segments)));
             }
         }
     }
@@ -224,8 +239,7 @@ HWY_INLINE void addAcrossPieces(const CpuTransfer& transfer, std::size_t first, 
             addPart<false, ScaleInvariant>(pieces[k], cut, perScalar, sink);
             if (k == first) break;
             for (std::uint32_t i = pieces[k - 1].peakEnd; i-- > pieces[k - 1].peakBegin;) {
-                const real value(peaks[i].value);
-                sink.addPeak(peaks[i], both(falling, exactlyOne(segments.front < value, segments.back < value)));
+                sink.addPeak(peaks[i], both(falling, crossed(peaks[i], segments)));
             }
         }
     }

@@ -23,10 +23,11 @@ struct ShadedSegment {
     real r, g, b, opacity, depth;
 };
 
-/// Depth-based colouring (shading::DepthColor). `distance` along the rays, scene lengths.
-HWY_INLINE void colorByDepth(const TileFrame& frame, real distance, ShadedSegment& segment) {
+/// Depth-based colouring (shading::DepthColor). `beyond`: distance along the rays less TileFrame::depthReference, scene
+/// lengths.
+HWY_INLINE void colorByDepth(const TileFrame& frame, real beyond, ShadedSegment& segment) {
     const shading::DepthColor& depthColor = *frame.shading->depthColor;
-    const real grey = real(frame.greyPerDistance) * distance + real(frame.greyOfZero);
+    const real grey = real(frame.greyPerDistance) * beyond + real(frame.greyOfReference);
     const real share = real(depthColor.strength) * clamp(real(1.0f) - grey, real(0.0f), real(1.0f));
     segment.r += share * (real(depthColor.color.x) - segment.r);
     segment.g += share * (real(depthColor.color.y) - segment.g);
@@ -56,9 +57,7 @@ HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& b
     } else if (enhanced) {
         const real cosine = dot(normal, towards);
         if constexpr (ScaleInvariant) {
-            const real variation = abs(segments.back - segments.front);
-            const real extinction =
-                select(variation > real(0.0f), sink.smoothDepth / max(variation, real(1e-37f)), real(0.0f));
+            const real extinction = sink.smoothDepth / variationOf(segments);
             depth = silhouetteDepth(extinction * magnitude * segments.length, sink.otherDepth, cosine);
         } else {
             depth = silhouetteDepth(real(0.0f), depth, cosine);

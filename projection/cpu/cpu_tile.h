@@ -16,6 +16,7 @@
 #include <projection/cells/cell_constants.h>
 #include <projection/cells/cell_setup.h>
 #include <projection/core/camera.h>
+#include <projection/core/transfer_support.h>
 #include <projection/core/scene.h>
 #include <projection/cpu/cpu_transfer.h>
 #include <projection/image/image.h>
@@ -65,7 +66,7 @@ enum class Look {
 /// A light as the quick looks need it.
 struct QuickLamp {
     int kind = 0;         ///< FrameLight's
-    float place[3] = {};  ///< towards it, or where it is, scene lengths from the eye: (right, down, forward)
+    float place[3] = {};  ///< towards it, or where it is (light_frame.h): (right, down, forward)
     float color[3] = {1, 1, 1}, specular[3] = {1, 1, 1};  ///< of diffuse and of specular light
     bool fades = false;                                   ///< with the distance: FrameLight's fade
     float fade[3] = {1, 0, 0};
@@ -97,6 +98,7 @@ struct TileFrame {
     double scalarScale;          ///< the field's units per scene unit
     bool cellData;
     const CpuTransfer* transfer;
+    const ScalarColors* scalarColors;  ///< of extreme and mean scalars
     TileKind kind;
     bool scaleInvariant;
     bool ordered;  ///< entries come front to back, so a pixel where they do not is doubtful
@@ -123,8 +125,8 @@ struct TileFrame {
     glm::vec3 constantColor{0};  ///< Absorption: of all that is seen
     bool emissionOnly = false;   ///< Additive: alpha stays 0
     ContributionWeights contributions{};
-    double greyOfZero = 0,
-           greyPerDistance = 0;  ///< grey of TileKind::Depth as a function of the distance, scene lengths
+    double greyOfReference = 0,
+           greyPerDistance = 0;  ///< grey of TileKind::Depth at the distance depthReference, and per scene length beyond
 };
 
 struct TileResult {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -33,7 +34,7 @@ inline std::size_t placeInTile(int x, int y) {
 /// - Mip, Minimum: largest or smallest scalar in t
 /// - Average: Σ scalar·length in r, Σ length in t
 /// - Additive: colour r g b and depth t, summed
-/// - Depth: distance in r, t = 1 until then
+/// - Depth: distance beyond TileFrame::depthReference in r, t = 1 until then
 struct TileBuffers {
     alignas(64) float r[tilePixels], g[tilePixels], b[tilePixels], t[tilePixels], last[tilePixels],
         lastScalar[tilePixels], rayLength[tilePixels],
@@ -65,6 +66,17 @@ constexpr float nothingYet = 3e38f;  // nearness before the first segment
 constexpr float doubtful = -3e38f;   // every later segment is nearer: once out of order, a pixel stays so
 constexpr float absorbed = 13.8f;    // −ln(leastTransmittance)
 
+template <TileKind Kind>
+constexpr bool gathersScalar = Kind == TileKind::Mip || Kind == TileKind::Minimum || Kind == TileKind::Average;
+
+/// The largest, smallest or mean scalar of the pixel at place `i`; nothing where no cell was met.
+template <TileKind Kind>
+std::optional<float> gatheredScalar(const TileBuffers& px, std::size_t i) {
+    const bool extreme = Kind == TileKind::Mip || Kind == TileKind::Minimum;
+    if (!(extreme ? std::abs(px.t[i]) < -unset : px.t[i] > 0)) return std::nullopt;
+    return extreme ? px.t[i] : px.r[i] / px.t[i];
+}
+
 /// The colour of the pixel at place `i` of the buffers, once its cells are drawn.
 template <TileKind Kind>
 glm::vec4 finishedPixel(const TileFrame& frame, const TileBuffers& px, std::size_t i) {
@@ -80,17 +92,16 @@ glm::vec4 finishedPixel(const TileFrame& frame, const TileBuffers& px, std::size
         const float sum = frame.contributions.sums ? px.t[i] : std::min(px.t[i], 1.0f);
         return glm::vec4{px.r[i], px.g[i], px.b[i], frame.emissionOnly ? 0.0f : sum};
     } else if constexpr (Kind == TileKind::Depth) {
-        const double grey = frame.greyOfZero + frame.greyPerDistance * static_cast<double>(px.r[i]);
+        const double grey = frame.greyOfReference + frame.greyPerDistance * static_cast<double>(px.r[i]);
         return px.t[i] == 0 ? glm::vec4(glm::vec3(static_cast<float>(grey)), 1.0f) : glm::vec4(0.0f);
     } else {
-        const bool extreme = Kind == TileKind::Mip || Kind == TileKind::Minimum;
-        const bool met = extreme ? std::abs(px.t[i]) < -unset : px.t[i] > 0;
-        const float s = extreme ? px.t[i] : px.r[i] / px.t[i];
-        return met ? glm::vec4(glm::vec3(frame.transfer->colorAt(s)), 1.0f) : glm::vec4(0.0f);
+        const std::optional<float> scalar = gatheredScalar<Kind>(px, i);
+        return scalar ? glm::vec4(glm::vec3(frame.scalarColors->at(*scalar)), 1.0f) : glm::vec4(0.0f);
     }
 }
 
-/// Writes the tile's pixels, and tells which of them were drawn out of order if that was `checked`.
+/// Writes the tile's pixels, and tells which of them are in doubt: drawn out of order if that was `checked`, or of a
+/// scalar next to which the colour is another.
 template <TileKind Kind>
 void resolveTile(const TileFrame& frame, const TileBuffers& px, int x0, int y0, bool checked, Image& image,
                  TileResult& result) {
@@ -99,7 +110,12 @@ void resolveTile(const TileFrame& frame, const TileBuffers& px, int x0, int y0, 
         for (int x = 0; x < width; ++x) {
             const std::size_t i = placeInTile(x, y);
             image.at(x0 + x, y0 + y) = finishedPixel<Kind>(frame, px, i);
-            if (checked && px.last[i] == doubtful)
+            bool doubted = checked && px.last[i] == doubtful;
+            if constexpr (gathersScalar<Kind>) {
+                const std::optional<float> scalar = gatheredScalar<Kind>(px, i);
+                doubted = scalar && frame.scalarColors->doubts(*scalar);
+            }
+            if (doubted)
                 result.doubtfulPixels.push_back(static_cast<std::uint32_t>(y0 + y) *
                                                     static_cast<std::uint32_t>(frame.width) +
                                                 static_cast<std::uint32_t>(x0 + x));

@@ -255,7 +255,7 @@ private:
         } else if constexpr (Kind == TileKind::Additive) {
             drawAdditive(block, t, first, last, segments);
         } else if constexpr (Kind == TileKind::Depth) {
-            drawFirstShown(j, at, in, rayLength, t, first, last, segments);
+            drawFirstShown(block, t, first, last, segments);
         } else if constexpr (Kind == TileKind::Mip) {
             storeAt(select(live, max(t, max(segments.front, segments.back)), t), px_.t + at);
         } else if constexpr (Kind == TileKind::Minimum) {
@@ -282,12 +282,12 @@ private:
         pixels.rayLength = block.rayLength;
         pixels.inverse = loadAt(px_.inverseLength + block.at);
         if constexpr (look != Look::Silhouettes && !Orthographic) {
-            const vec3 direction = perDepth(block);
+            const vec3 direction = perDepth(block.x, block.y);
             pixels.x = direction.x;
             pixels.y = direction.y;
         }
         if constexpr (look == Look::Lamps) {
-            if (frame_.look.places) pixels.place = middlePlace(block, pixels.inverse * perDepth(block));
+            if (frame_.look.places) pixels.place = middlePlace(block);
         }
         LookedSegments<look, Orthographic, ScaleInvariant, Peaks, shows>{frame_, peakLooks_, look_, pixels, segments}
             .add(first, last, sink);
@@ -299,7 +299,9 @@ private:
         std::conditional_t<Limited, ScaledSegmentSink, SegmentSink> sink;
         sink.begin();
         if constexpr (Limited)
-            classified(block, first, last, segments).gather(sink);
+            classified(block, first, last, segments, loadAt(limits_.scale + block.at)).gather(sink);
+        else if (ScaleInvariant && frame_.shading->silhouette)
+            classified(block, first, last, segments, real(1.0f)).integrate(real(1.0f), sink);
         else
             integrate(first, last, segments, sink);
         const ShadedSegment shaded = shade(block, sink, segments);
@@ -320,13 +322,14 @@ private:
 
     HWY_INLINE ShadedSegment shade(const Block& block, const SegmentSink& sink, const Segments& segments) {
         vec3 towards(real(0.0f), real(0.0f), real(1.0f));
-        if constexpr (!Orthographic) towards = reciprocal(block.rayLength) * perDepth(block);
+        if constexpr (!Orthographic) towards = reciprocal(block.rayLength) * perDepth(block.x, block.y);
         const auto middles = [&]() HWY_ATTR {
             return segmentMiddles<Orthographic>(block.dx, block.dy, block.in, block.out);
         };
-        const auto place = [&]() HWY_ATTR { return middlePlace(block, towards); };
+        const auto place = [&]() HWY_ATTR { return middlePlace(block); };
         ShadedSegment shaded = shadeAs(block, sink, segments, towards, middles, place);
-        if (HWY_UNLIKELY(frame_.shading->depthColor.has_value())) colorByDepth(frame_, middleDistance(block), shaded);
+        if (HWY_UNLIKELY(frame_.shading->depthColor.has_value()))
+            colorByDepth(frame_, distanceBeyond(block.x, block.y, middleBeyond(block), block.rayLength), shaded);
         return shaded;
     }
 
@@ -347,27 +350,40 @@ private:
         }
     }
 
-    /// Along the rays to the segments' middles, scene lengths.
-    HWY_INLINE real middleDistance(const Block& block) const {
-        const real half(0.5f), scale(batch_.scale[block.j]);
-        if constexpr (Orthographic) return scale - abs(scale) * (half * (block.in + block.out));
-        const real ratio = half * (reciprocal(real(1.0f) + block.in) + reciprocal(real(1.0f) + block.out));
-        return scale * ratio * block.rayLength;
+    /// How much deeper than TileFrame::depthReference rays are at rho, scene lengths: from nearness, which holds it
+    /// however far the eye is.
+    HWY_INLINE real depthBeyond(std::size_t j, real rho) const {
+        const real nearness = real(batch_.nearness[j]) + real(batch_.nearnessPerRho[j]) * rho;
+        if constexpr (Orthographic) return -nearness;
+        return real(-frame_.depthReference) * nearness * reciprocal(real(1.0f) + nearness);
+    }
+    HWY_INLINE real middleBeyond(const Block& block) const {
+        return real(0.5f) * (depthBeyond(block.j, block.in) + depthBeyond(block.j, block.out));
     }
 
-    /// The segments' middles from the eye: (right, down, forward), scene lengths.
-    HWY_INLINE vec3 middlePlace(const Block& block, vec3 towards) const {
-        const real distance = middleDistance(block);
-        if constexpr (!Orthographic) return distance * towards;
-        const vec3 beside = perDepth(block);
-        return {beside.x, beside.y, distance};
+    /// The distance along rays at a depth that is `beyond` the reference's, less the reference's own depth.
+    HWY_INLINE real distanceBeyond(int x, int y, real beyond, real rayLength) const {
+        if constexpr (Orthographic) return beyond;
+        const vec3 ray = perDepth(x, y);
+        const real square = ray.x * ray.x + ray.y * ray.y;
+        return beyond * rayLength + real(frame_.depthReference) * square * reciprocal(real(1.0f) + rayLength);
+    }
+
+    /// The segments' middles from the point on the view's axis at TileFrame::depthReference: (right, down, forward),
+    /// scene lengths.
+    HWY_INLINE vec3 middlePlace(const Block& block) const {
+        const real beyond = middleBeyond(block);
+        const vec3 ray = perDepth(block.x, block.y);
+        if constexpr (Orthographic) return {ray.x, ray.y, beyond};
+        const real depth = real(frame_.depthReference) + beyond;
+        return {depth * ray.x, depth * ray.y, beyond};
     }
 
     /// The rays' directions with a depth of 1 (orthographic: the rays' places), (right, down, forward).
-    HWY_INLINE vec3 perDepth(const Block& block) const {
+    HWY_INLINE vec3 perDepth(int x, int y) const {
         const real pixel(frame_.pixel);
-        return {pixel * (laneX_ + real(x0_ + block.x - frame_.centre.x)),
-                pixel * (laneY_ + real(y0_ + block.y - frame_.centre.y)), real(1.0f)};
+        return {pixel * (laneX_ + real(x0_ + x - frame_.centre.x)), pixel * (laneY_ + real(y0_ + y - frame_.centre.y)),
+                real(1.0f)};
     }
 
     HWY_INLINE real rhoOfNearness(std::size_t j, real nearness) const {
@@ -381,15 +397,15 @@ private:
     }
 
     HWY_INLINE ClassifiedSegments<Orthographic> classified(const Block& block, std::size_t first, std::size_t last,
-                                                           const Segments& segments) const {
-        return {frame_, batch_, block, first, last, segments, loadAt(limits_.scale + block.at)};
+                                                           const Segments& segments, real scale) const {
+        return {frame_, batch_, block, first, last, segments, scale};
     }
 
     /// Absorption with all that changes depth.
     HWY_INLINE void drawDepth(const Block& block, real t, std::size_t first, std::size_t last,
                               const Segments& segments) {
         const std::size_t at = block.at;
-        const auto shown = classified(block, first, last, segments);
+        const auto shown = classified(block, first, last, segments, loadAt(limits_.scale + block.at));
         if (!frame_.shading->needsGradient() && !frame_.contributions.perCell) {
             ScaledDepthSink sink{{t}, shown.scale};
             shown.integrate(shown.scale, sink);
@@ -407,7 +423,8 @@ private:
     HWY_INLINE void drawAdditive(const Block& block, real t, std::size_t first, std::size_t last,
                                  const Segments& segments) {
         const std::size_t at = block.at;
-        const EmissionSink sink = classified(block, first, last, segments).emission();
+        const EmissionSink sink =
+            classified(block, first, last, segments, loadAt(limits_.scale + block.at)).emission();
         real r = sink.r, g = sink.g, b = sink.b, depth = sink.smoothDepth + sink.otherDepth;
         if (frame_.shading->needsGradient()) {
             SegmentSink whole;
@@ -429,13 +446,14 @@ private:
         storeAt(t + keep(segments.live, depth), px_.t + at);
     }
 
-    /// Distance along the ray (scene lengths) to what is first seen.
-    HWY_INLINE void drawFirstShown(std::size_t j, std::size_t at, real in, real rayLength, real t, std::size_t first,
-                                   std::size_t last, const Segments& segments) {
+    /// Distance along the ray (scene lengths, beyond TileFrame::depthReference) to what is first seen.
+    HWY_INLINE void drawFirstShown(const Block& block, real t, std::size_t first, std::size_t last,
+                                   const Segments& segments) {
+        const std::size_t at = block.at;
         const FirstShown shown = firstShown(*frame_.transfer, first, last, segments);
         if (none(shown.shown)) return;
-        const real scale(batch_.scale[j]);
-        const real begin = Orthographic ? scale - abs(scale) * in : real(scale * rayLength) / (real(1.0f) + in);
+        const real begin =
+            distanceBeyond(block.x, block.y, depthBeyond(block.j, block.in), block.rayLength);
         const real step = segments.back - segments.front;
         const real share = select(abs(step) > real(0.0f), (shown.scalar - segments.front) / step, real(0.0f));
         const real distance = begin + clamp(share, real(0.0f), real(1.0f)) * segments.length;

@@ -64,9 +64,6 @@ public:
     bool constantColor() const { return constantColor_; }
     glm::dvec3 color() const { return color_; }
 
-    /// The colour at one scalar, also where nothing is visible (largest and mean scalar modes).
-    glm::dvec3 colorAt(double scalar) const { return function_.colorAt(scalar); }
-
 private:
     static constexpr std::size_t lookUpSteps = 1024;
 

@@ -46,6 +46,7 @@ tetralux_embed_shaders(tetralux_projection FILES
   preint/gather_segment.glsl
   preint/glsl_prelude.glsl
   preint/table_lookup.glsl
+  preint/value_from_above.glsl
   projection/cells/cell_interval.glsl
   projection/cells/cell_outline.glsl
   projection/cells/covered_pixels.glsl
@@ -68,6 +69,7 @@ tetralux_embed_shaders(tetralux_projection FILES
   projection/gl/gl_cell.frag
   projection/gl/gl_cell_pixel.glsl
   projection/gl/gl_cell.vert
+  projection/gl/gl_cell_depth.glsl
   projection/gl/gl_cell_record.glsl
   projection/gl/gl_full_screen.vert
   projection/gl/gl_light.glsl

@@ -6,6 +6,7 @@ layout(std430, binding = 2) readonly buffer Cells { uvec4 cells[]; };
 
 uniform dvec2 viewCentre;
 uniform ivec2 viewSize;
+uniform double viewDepthOrigin;
 
 CellView cellView() {
     CellView view;
@@ -13,6 +14,7 @@ CellView cellView() {
     view.width = viewSize.x;
     view.height = viewSize.y;
     view.orthographic = TETRALUX_ORTHOGRAPHIC != 0;
+    view.depthOrigin = viewDepthOrigin;
     return view;
 }
 

@@ -11,13 +11,12 @@ uniform vec2 centre;        // pixel coordinates of the optical axis
 // (projection/cells/ray_nearness.h).
 uniform sampler2D limits;
 uniform sampler2D cutNormals;
-uniform float depthReference;
 
 float rhoOfNearness(CellRecord cell, float nearness) {
 #if TETRALUX_ORTHOGRAPHIC
-    return (cell.scale - depthReference + nearness) / abs(cell.scale);
+    return (beyondReference(cell) + nearness) / abs(cell.scale);
 #else
-    return ((cell.scale - depthReference) + cell.scale * nearness) / depthReference;
+    return (beyondReference(cell) + cell.scale * nearness) / depthReference;
 #endif
 }
 #endif
@@ -62,12 +61,13 @@ float segmentLength(CellRecord cell, vec2 rho, vec2 fromCentre) {
 #endif
 
 #if TETRALUX_MODE == TETRALUX_MODE_DEPTH || TETRALUX_DEPTH_COLOR
-// Distance along the ray, scene lengths.
-float distanceTo(CellRecord cell, float rho, vec2 fromCentre) {
+// Distance along the ray less depthReference, scene lengths.
+float distanceBeyond(CellRecord cell, float rho, vec2 fromCentre) {
 #if TETRALUX_ORTHOGRAPHIC
-    return cell.scale - abs(cell.scale) * rho;
+    return depthBeyond(cell, rho);
 #else
-    return sqrt(1.0 + dot(viewRight, viewRight) * dot(fromCentre, fromCentre)) * cell.scale * depthRatio(rho);
+    float square = dot(viewRight, viewRight) * dot(fromCentre, fromCentre), rayLength = sqrt(1.0 + square);
+    return depthBeyond(cell, rho) * rayLength + depthReference * square / (1.0 + rayLength);
 #endif
 }
 #endif
@@ -94,7 +94,7 @@ bool drawSegment(CellRecord cell, vec2 pixel, float dx, float dy, vec2 rho, vec3
     float step = firstShown(front, back);
     if (step > 1e30) return false;
     float along = front == back ? 0.0 : len * min(step / abs(back - front), 1.0);
-    result = vec4(distanceTo(cell, rho.x, pixel - centre) + along, 0.0, 0.0, 1.0);
+    result = vec4(distanceBeyond(cell, rho.x, pixel - centre) + along, 0.0, 0.0, 1.0);
 #else
     vec3 view = vec3(0.0);
     vec4 normalAndMagnitude = vec4(0.0);
@@ -114,7 +114,7 @@ bool drawSegment(CellRecord cell, vec2 pixel, float dx, float dy, vec2 rho, vec3
 #endif
     float side = sign(scalarFall(across, cell.scalarPerRho));
 #if TETRALUX_DEPTH_COLOR
-    float middle = 0.5 * (distanceTo(cell, rho.x, pixel - centre) + distanceTo(cell, rho.y, pixel - centre));
+    float middle = 0.5 * (distanceBeyond(cell, rho.x, pixel - centre) + distanceBeyond(cell, rho.y, pixel - centre));
     depthShare = depthColor.a * clamp(depthRange.x + depthRange.y * middle, 0.0, 1.0);
 #endif
 #if TETRALUX_SURFACE_SHADOWS

@@ -129,9 +129,10 @@ GlDefines variant(const RenderSettings& settings, const shading::VertexLight& ve
 }
 
 std::vector<std::string_view> pixelFiles(bool looksUp, bool walks) {
-    std::vector<std::string_view> files{"preint/glsl_prelude.glsl",          "projection/gl/gl_precision.glsl",
+    std::vector<std::string_view> files{"preint/glsl_prelude.glsl",          "preint/value_from_above.glsl",
+                                        "projection/gl/gl_precision.glsl",
                                         "projection/gl/gl_variants.glsl",    "projection/cells/cell_interval.glsl",
-                                        "projection/gl/gl_cell_record.glsl", "shading/light_model.glsl",
+                                        "projection/gl/gl_cell_record.glsl", "projection/gl/gl_cell_depth.glsl",   "shading/light_model.glsl",
                                         "projection/gl/gl_light.glsl"};
     if (looksUp) {
         if (walks)
@@ -246,7 +247,7 @@ GlCellProgram::GlCellProgram(const GlFunctions& gl, const RenderSettings& settin
                              bool linearSampler)
     : gl_(gl),
       program_(gl,
-               withTileConstants(variant(settings, vertexLight, floatExtinctionSupport(function).size(), table, walked,
+               withTileConstants(variant(settings, vertexLight, extinctionSupport(function).size(), table, walked,
                                          kind, linearSampler),
                                  kind.tiles),
                shaders(table != nullptr, walked != nullptr, kind.tiles)),
@@ -256,17 +257,22 @@ GlCellProgram::GlCellProgram(const GlFunctions& gl, const RenderSettings& settin
       viewRight_(program_.uniform("viewRight")),
       viewDown_(program_.uniform("viewDown")),
       depthReference_(program_.uniform("depthReference")),
+      depthOrigin_(program_.uniform("depthOrigin")),
       lightPlace_(program_.uniform("lightPlace")),
       lightFade_(program_.uniform("lightFade")) {
     program_.use();
-    setConstants(settings, floatExtinctionSupport(function), table, walked);
+    setConstants(settings, extinctionSupport(function), table, walked);
     checkGl(gl_, "shader constants");
 }
 
-void GlCellProgram::setConstants(const RenderSettings& settings, const std::vector<glm::vec2>& support,
+void GlCellProgram::setConstants(const RenderSettings& settings, const std::vector<ShownScalars>& support,
                                  const preint::PreintegrationTable* table, const WalkedPieces* walked) const {
-    gl_.Uniform2fv(program_.uniform("support"), static_cast<GLsizei>(support.size()),
-                   reinterpret_cast<const float*>(support.data()));
+    std::vector<glm::vec3> supportFloats;
+    for (const ShownScalars& shown : support)
+        supportFloats.emplace_back(
+            glm::clamp(glm::dvec3(shown.low, shown.high, shown.lowShows ? 1.0 : 0.0), -3e38, 3e38));
+    gl_.Uniform3fv(program_.uniform("support"), static_cast<GLsizei>(supportFloats.size()),
+                   reinterpret_cast<const float*>(supportFloats.data()));
     const auto& shading = settings.shading;
     std::vector<glm::vec3> lights;
     for (const auto& light : shading.lights) lights.emplace_back(light.towards);
@@ -336,10 +342,10 @@ void GlCellProgram::setLights(const std::vector<FrameLight>& lights, const Scene
     gl_.Uniform1f(program_.uniform("perLength"), static_cast<float>(1.0 / units.length));
 }
 
-void GlCellProgram::setDepthRange(const DepthRange& range, const SceneUnits& units) const {
-    const double atEye = 1.0 - range.greyAt(0.0);
-    gl_.Uniform2f(program_.uniform("depthRange"), static_cast<float>(atEye),
-                  static_cast<float>(1.0 - range.greyAt(units.length) - atEye));
+void GlCellProgram::setDepthRange(const DepthRange& range, double depthReference, const SceneUnits& units) const {
+    gl_.Uniform2f(program_.uniform("depthRange"),
+                  static_cast<float>(1.0 - range.greyAt(depthReference * units.length)),
+                  static_cast<float>(-range.greyPerDistance() * units.length));
 }
 
 void GlCellProgram::use(const CameraFrame& frame, double depthReference) const {
@@ -351,6 +357,7 @@ void GlCellProgram::use(const CameraFrame& frame, double depthReference) const {
     setVector(gl_, viewRight_, frame.perPixelRight);
     setVector(gl_, viewDown_, frame.perPixelDown);
     gl_.Uniform1f(depthReference_, static_cast<float>(depthReference));
+    gl_.Uniform1f(depthOrigin_, static_cast<float>(frame.depthOrigin));
 }
 
 void GlCellProgram::setTiles(const CameraFrame& frame, std::size_t cellFloats, float leastTransmittance) const {

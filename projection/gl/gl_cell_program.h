@@ -10,6 +10,7 @@
 #include <projection/cells/cell_setup.h>
 #include <projection/core/camera.h>
 #include <projection/core/scene.h>
+#include <projection/core/transfer_support.h>
 #include <projection/gl/gl_program.h>
 #include <projection/gl/gl_walk.h>
 #include <projection/light/light_frame.h>
@@ -88,17 +89,17 @@ public:
     void setLights(const std::vector<FrameLight>& lights, const SceneUnits& units) const;
 
     /// Where depth-based colouring begins and ends; after use().
-    void setDepthRange(const DepthRange& range, const SceneUnits& units) const;
+    void setDepthRange(const DepthRange& range, double depthReference, const SceneUnits& units) const;
 
 private:
-    void setConstants(const RenderSettings& settings, const std::vector<glm::vec2>& support,
+    void setConstants(const RenderSettings& settings, const std::vector<ShownScalars>& support,
                       const preint::PreintegrationTable* table, const WalkedPieces* walked) const;
 
     void setLightModel(const shading::ShadingSettings& shading) const;
 
     const GlFunctions& gl_;
     GlProgram program_;
-    GLint ndcPerPixel_, centre_, viewForward_, viewRight_, viewDown_, depthReference_, lightPlace_, lightFade_;
+    GLint ndcPerPixel_, centre_, viewForward_, viewRight_, viewDown_, depthReference_, depthOrigin_, lightPlace_, lightFade_;
 };
 
 }  // namespace tetralux::projection

@@ -9,8 +9,11 @@ struct CellRecord {
     int frontMask;
     vec2 pixel, fraction;
     float scalar, scalarPerX, scalarPerY, scalarPerRho, scalarLow, scalarHigh;
-    float scale;
+    float scale;        // z_c
+    float fromOrigin;  // z_c less depthOrigin, which is 0 or far from the eye near the mesh
 };
+
+uniform float depthOrigin;
 
 CellRecord unpackRecord(vec4 v0, vec4 v1, vec4 v2, vec4 v3, vec4 v4, vec4 v5) {
     CellRecord cell;
@@ -27,6 +30,7 @@ CellRecord unpackRecord(vec4 v0, vec4 v1, vec4 v2, vec4 v3, vec4 v4, vec4 v5) {
     cell.scalarPerRho = v5.x;
     cell.scalarLow = v5.y;
     cell.scalarHigh = v5.z;
-    cell.scale = v5.w;
+    cell.fromOrigin = v5.w;
+    cell.scale = depthOrigin + v5.w;
     return cell;
 }

@@ -135,6 +135,8 @@ public:
           units_(sceneUnits(*scene.mesh)),
           edgeOnPlanes_(*scene.mesh),
           function_(inSceneUnits(scene.transferFunction, units_, integralOf(scene.settings.mode))),
+          scalarColors_(function_, scene.mesh->association == mesh::Association::Cell &&
+                                     scene.settings.mode != Mode::Average),
           context_(makeGlContext(options.context)) {
         Stopwatch watch;
         layout_.gradient = modeLooksUp(mode()) && mode() != Mode::Depth && scene.settings.shading.needsGradient();
@@ -211,6 +213,7 @@ private:
     SceneUnits units_;
     EdgeOnPlanes edgeOnPlanes_;
     preint::TransferFunction function_;  // scene units
+    ScalarColors scalarColors_;
     std::optional<preint::PreintegrationTable> table_;
     std::optional<WalkedPieces> walked_;  // in the table's stead, where that misses its error
     std::optional<GlCellOrder> order_;
@@ -300,7 +303,7 @@ void GlEngine::setBlending() const {
 CellCorners GlEngine::cellCorners(const CellProjector& projector, const CellRecord& record, const CameraFrame& frame,
                                   mesh::CellIndex cell) const {
     const std::array<double, 4> eye = projector.eyeCoordinates(cell);
-    const double perRho = frame.orthographic ? std::abs(static_cast<double>(record.scale)) * units_.length : 1.0;
+    const double perRho = frame.orthographic ? std::abs(frame.depthOrigin + static_cast<double>(record.scale)) * units_.length : 1.0;
     CellCorners corners;
     for (std::size_t k = 0; k < 4; ++k) {
         corners.eyeWeight[k] = static_cast<float>(eye[k] * perRho);
@@ -339,9 +342,9 @@ const GlCellProgram& GlEngine::beginFrame(const View& view, const CameraFrame& f
     cellProgram.use(frame, depthReference);
     if (way == GlDrawing::Tiles)
         cellProgram.setTiles(frame, layout_.floats(), scene_.settings.earlyTermination ? leastTransmittance : -1.0f);
-    if (fullLight_) cellProgram.setLights(frameLights(scene_.settings.shading, units_, frame), units_);
+    if (fullLight_) cellProgram.setLights(frameLights(scene_.settings.shading, units_, frame, depthReference), units_);
     if (scene_.settings.shading.depthColor)
-        cellProgram.setDepthRange(depthRange(scene_.mesh->bounds, view.camera), units_);
+        cellProgram.setDepthRange(depthRange(scene_.mesh->bounds, view.camera), depthReference, units_);
     setBlending();
     return cellProgram;
 }
@@ -458,7 +461,8 @@ Image GlEngine::render(const View& view, FrameReport& report) {
     checkStop(view.control);
     Stopwatch whole, watch;
     auto& stages = report.stageMilliseconds;
-    const CameraFrame frame = sampledFrame(view.camera, edgeOnPlanes_);
+    CameraFrame frame = sampledFrame(view.camera, edgeOnPlanes_);
+    frame.depthOrigin = depthOriginOf(scene_.mesh->bounds, frame, units_);
     report.samplesBeside = frame.sampleShift == EdgeOnPlanes::widely;
     const CurrentGlContext current(*context_);
     report.dataPathReason = path_.reason;
@@ -475,7 +479,10 @@ Image GlEngine::render(const View& view, FrameReport& report) {
     watch.lap();
     checkStop(view.control);
     Image image = state_->target->read();
-    resolveOrderFree(image, scene_, view.camera, units_);
+    const GlGathered gathered{mode(), depthRange(scene_.mesh->bounds, view.camera),
+                              depthReferenceOf(scene_.mesh->bounds, frame, units_), units_.length};
+    const std::vector<std::uint32_t> doubtful = resolveOrderFree(image, gathered, scalarColors_);
+    report.doubtfulPixels.insert(report.doubtfulPixels.end(), doubtful.begin(), doubtful.end());
     stages["read back"] = watch.lap();
     report.frameMilliseconds = whole.lap();
     if (scene_.settings.order == OrderMethod::Centroid)  // to be measured, and not part of what it takes

@@ -5,7 +5,7 @@
 uniform vec3 viewForward, viewRight, viewDown;  // world space; right and down per pixel (perspective: at depth 1)
 
 #if TETRALUX_FULL_LIGHT
-uniform vec3 lightPlace[TETRALUX_LIGHTS];  // towards it, or its place from the eye in scene lengths
+uniform vec3 lightPlace[TETRALUX_LIGHTS];  // towards it, or its place from where middlePlace is, scene lengths
 uniform vec3 lightColor[TETRALUX_LIGHTS];
 uniform vec3 lightFade[TETRALUX_LIGHTS];
 uniform int lightKind[TETRALUX_LIGHTS];    // 0 directional, 1 point, 2 at the eye
@@ -20,7 +20,7 @@ const float perLength = 0.0;
 #endif
 
 #if TETRALUX_FULL_LIGHT || TETRALUX_ATTRIBUTES
-vec3 middlePlace;   // of the segment, from the eye, scene lengths
+vec3 middlePlace;   // of the segment, from the point on the view's axis at depthReference, scene lengths
 vec4 middleWeight;  // barycentric coordinates there
 
 #if TETRALUX_ATTRIBUTES
@@ -52,11 +52,12 @@ void setMiddle(CellRecord cell, vec2 rho, float dx, float dy, vec2 fromCentre) {
 #if TETRALUX_ORTHOGRAPHIC
     float constant = 1.0, nearness = 0.5 * (rho.x + rho.y);
     middlePlace = perLength * (fromCentre.x * viewRight + fromCentre.y * viewDown) +
-                  (cell.scale - abs(cell.scale) * nearness) * viewForward;
+                  (beyondReference(cell) - abs(cell.scale) * nearness) * viewForward;
 #else
     vec2 ratio = vec2(depthRatio(rho.x), depthRatio(rho.y));
     float constant = 0.5 * (ratio.x + ratio.y), nearness = 0.5 * (ratio.x * rho.x + ratio.y * rho.y);
-    middlePlace = cell.scale * constant * (viewForward + fromCentre.x * viewRight + fromCentre.y * viewDown);
+    middlePlace = 0.5 * (depthBeyond(cell, rho.x) + depthBeyond(cell, rho.y)) * viewForward +
+                  cell.scale * constant * (fromCentre.x * viewRight + fromCentre.y * viewDown);
 #endif
 #if TETRALUX_ATTRIBUTES
     for (int k = 0; k < 4; ++k) {
@@ -79,7 +80,7 @@ vec3 arriving(int i, vec3 view, out vec3 towards) {
     if (lightKind[i] == 0) return lightColor[i];
     if (lightKind[i] == 2) {  // in orthographic views behind each pixel
         towards = view;
-        return attenuation(lightFade[i], -dot(middlePlace, view)) * lightColor[i];
+        return attenuation(lightFade[i], dot(lightPlace[i] - middlePlace, view)) * lightColor[i];
     }
     vec3 way = lightPlace[i] - middlePlace;
     float reach = length(way);

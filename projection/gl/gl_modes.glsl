@@ -4,7 +4,7 @@
 // `path` is what extinction is per unit of. Needs preint/gather_segment.glsl.
 
 #if TETRALUX_SUPPORTS
-uniform vec2 support[TETRALUX_SUPPORTS];  // scalars with extinction
+uniform vec3 support[TETRALUX_SUPPORTS];  // ShownScalars (projection/core/transfer_support.h): low, high, whether low shows
 #endif
 
 // Post-classification (Kraus 2005, Equations 10 and 11): the sample in the middle stands for the segment. On the table's diagonal
@@ -115,13 +115,13 @@ float firstShown(float front, float back) {
 #if TETRALUX_SUPPORTS
     for (int i = 0; i < TETRALUX_SUPPORTS; ++i) {
         float begin = clamp(front, support[i].x, support[i].y), end = clamp(back, support[i].x, support[i].y);
-        bool constant = front == back && front > support[i].x && front < support[i].y;
+        bool constant = front == back && showsBetween(front, back, support[i].x, support[i].y, support[i].z > 0.0);
         if (begin != end || constant) nearest = min(nearest, abs(begin - front));
     }
 #endif
 #if TETRALUX_INTERFACES
     for (int i = 0; i < TETRALUX_INTERFACES; ++i) {
-        bool crossed = (front < interfaceValue[i]) != (back < interfaceValue[i]);
+        bool crossed = crossesValue(front, back, interfaceValue[i]);
         if (interfaceLayer[i].w > 0.0 && crossed) nearest = min(nearest, abs(interfaceValue[i] - front));
     }
 #endif

@@ -116,6 +116,7 @@ const GlResidentCells::Kernels& GlResidentCells::kernels(bool orthographic) {
 void GlResidentCells::setView(const GlKernel& kernel, const CameraFrame& frame) const {
     const glm::dvec2 centre = sampleCentre(frame);
     gl_.Uniform2d(kernel.uniform("viewCentre"), centre.x, centre.y);
+    gl_.Uniform1d(kernel.uniform("viewDepthOrigin"), frame.depthOrigin);
     gl_.Uniform2i(kernel.uniform("viewSize"), frame.width, frame.height);
 }
 

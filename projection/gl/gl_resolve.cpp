@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 namespace tetralux::projection {
@@ -13,31 +14,29 @@ namespace {
 
 constexpr float noMinimum = 2.0f;  // scene scalars are in [0, 1]
 
-/// The colour of one scalar, in scene units.
-glm::vec4 scalarColor(const preint::TransferFunction& function, const SceneUnits& units, double scalar) {
-    return {glm::vec3(function.colorAt(units.scalarOffset + scalar * units.scalarScale)), 1.0f};
-}
-
 }  // namespace
 
 float clearValue(Mode mode) {
     return mode == Mode::Mip ? -1.0f : mode == Mode::Minimum ? noMinimum : 0.0f;
 }
 
-void resolveOrderFree(Image& image, const Scene& scene, const Camera& camera, const SceneUnits& units) {
-    const Mode mode = scene.settings.mode;
-    if (!orderFree(mode) && mode != Mode::Depth) return;
-    const DepthRange range = depthRange(scene.mesh->bounds, camera);
-    const auto resolve = [&](const glm::vec4& gathered) -> glm::vec4 {
-        const double first = static_cast<double>(gathered.x), second = static_cast<double>(gathered.y);
-        const auto colorOf = [&](double scalar) { return scalarColor(scene.transferFunction, units, scalar); };
+std::vector<std::uint32_t> resolveOrderFree(Image& image, const GlGathered& frame, const ScalarColors& colors) {
+    const Mode mode = frame.mode;
+    if (!orderFree(mode) && mode != Mode::Depth) return {};
+    tbb::enumerable_thread_specific<std::vector<std::uint32_t>> doubtful;
+    const auto resolve = [&](const glm::vec4& gathered, std::uint32_t pixel) -> glm::vec4 {
+        const auto colorOf = [&](bool met, float scalar) {
+            if (!met) return glm::vec4(0);
+            if (colors.doubts(scalar)) doubtful.local().push_back(pixel);
+            return glm::vec4(glm::vec3(colors.at(scalar)), 1.0f);
+        };
         switch (mode) {
             case Mode::Mip:
-                return gathered.x >= 0.0f ? colorOf(first) : glm::vec4(0);
+                return colorOf(gathered.x >= 0.0f, gathered.x);
             case Mode::Minimum:
-                return gathered.x < noMinimum ? colorOf(first) : glm::vec4(0);
+                return colorOf(gathered.x < noMinimum, gathered.x);
             case Mode::Average:
-                return gathered.y > 0.0f ? colorOf(first / second) : glm::vec4(0);
+                return colorOf(gathered.y > 0.0f, gathered.x / gathered.y);
             case Mode::Additive:
             case Mode::DataAdditive:
                 return scene.settings.contributions.sums ? gathered
@@ -45,18 +44,23 @@ void resolveOrderFree(Image& image, const Scene& scene, const Camera& camera, co
             case Mode::Emission:
                 return {glm::vec3(gathered), 0.0f};
             case Mode::Absorption:
-                return {0.0f, 0.0f, 0.0f, static_cast<float>(-std::expm1(-first))};
-            case Mode::Depth:
-                return gathered.w > 0.0f
-                           ? glm::vec4(glm::vec3(static_cast<float>(range.greyAt(first * units.length))), 1.0f)
-                           : glm::vec4(0);
+                return {0.0f, 0.0f, 0.0f, static_cast<float>(-std::expm1(-static_cast<double>(gathered.x)))};
+            case Mode::Depth: {
+                const double distance = (frame.depthReference + static_cast<double>(gathered.x)) * frame.length;
+                return gathered.w > 0.0f ? glm::vec4(glm::vec3(static_cast<float>(frame.depths.greyAt(distance))), 1.0f)
+                                         : glm::vec4(0);
+            }
             default:
                 return gathered;
         }
     };
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, image.pixels.size(), 4096), [&](const auto& part) {
-        for (std::size_t i = part.begin(); i != part.end(); ++i) image.pixels[i] = resolve(image.pixels[i]);
+        for (std::size_t i = part.begin(); i != part.end(); ++i)
+            image.pixels[i] = resolve(image.pixels[i], static_cast<std::uint32_t>(i));
     });
+    std::vector<std::uint32_t> all;
+    for (const auto& part : doubtful) all.insert(all.end(), part.begin(), part.end());
+    return all;
 }
 
 }  // namespace tetralux::projection

@@ -16,12 +16,12 @@ bool segmentShows(float front, float back) {
     bool shows = false;
 #if TETRALUX_SUPPORTS
     for (int i = 0; i < TETRALUX_SUPPORTS; ++i) {
-        shows = shows || (high > support[i].x && low < support[i].y);
+        shows = shows || showsBetween(low, high, support[i].x, support[i].y, support[i].z > 0.0);
     }
 #endif
 #if TETRALUX_INTERFACES
     for (int i = 0; i < TETRALUX_INTERFACES; ++i) {
-        shows = shows || (interfaceLayer[i].w > 0.0 && low < interfaceValue[i] && interfaceValue[i] <= high);
+        shows = shows || (interfaceLayer[i].w > 0.0 && crossesValue(front, back, interfaceValue[i]));
     }
 #endif
     return shows;
@@ -50,6 +50,15 @@ float surfaceShadows(vec3 towards) {
 }
 #endif
 
+// The scale-invariant path, not quite 0 along a level set where silhouettes multiply it by as much as it lacks.
+float dataPath(float front, float back) {
+#if TETRALUX_SILHOUETTE
+    return max(abs(front - back), 1e-18);
+#else
+    return abs(front - back);
+#endif
+}
+
 // Colour per α and α of a segment in view direction `view` (unit, towards the eye); `gradient` is the unit normal and
 // |g|, both zero where the scalar is constant; `fallSide` the sign of
 // s_f − s_b. `cutNormal` is lit where it is not zero. In modes that hide nothing depth stands
@@ -57,13 +66,13 @@ float surfaceShadows(vec3 towards) {
 vec4 shadedSegment(float front, float back, float len, float fallSide, vec3 view, vec4 gradient, vec3 cutNormal) {
     float path = len;
 #if TETRALUX_DATA_SPACE && !TETRALUX_SCALE_INVARIANT
-    path = abs(front - back);  // looked up as a length, so that it can be scaled
+    path = dataPath(front, back);  // looked up as a length, so that it can be scaled
 #endif
     path *= interfaceScale;
 #if TETRALUX_PER_CELL
     Gathered segment = contributionsOf(front, back, TETRALUX_DATA_SPACE != 0 ? abs(front - back) : len);
 #elif TETRALUX_SAMPLED
-    Gathered segment = sampledSegment(front, back, TETRALUX_DATA_SPACE != 0 ? abs(front - back) * interfaceScale : path);
+    Gathered segment = sampledSegment(front, back, TETRALUX_DATA_SPACE != 0 ? dataPath(front, back) * interfaceScale : path);
 #elif TETRALUX_MODE == TETRALUX_MODE_ADDITIVE
     Gathered segment = emittedMean(front, back, path);
 #else
@@ -80,7 +89,7 @@ vec4 shadedSegment(float front, float back, float len, float fallSide, vec3 view
 #if TETRALUX_SCALE_INVARIANT
     float perScalar = segment.meanExtinction;
 #else
-    float perScalar = segment.smoothDepth / max(abs(front - back), 1e-30);
+    float perScalar = segment.smoothDepth / dataPath(front, back);
 #endif
     float sharpened = silhouetteDepth(perScalar * gradient.w * len, segment.otherDepth, cosine);
 #else

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -37,12 +38,19 @@ ImageDifference compareImages(const Image& a, const Image& b);
 /// The image over a colour: premultiplied composition, alpha becomes 1.
 void putUnder(Image& image, const glm::vec3& background);
 
+/// Pixels (y·width + x, ascending) one of whose channels is infinite or no number.
+std::vector<std::uint32_t> pixelsNotFinite(const Image& image);
+
+/// \throws std::runtime_error naming the first pixel that is not finite; `name` is the picture's.
+void requireFinite(const Image& image, const std::string& name);
+
 /// The picture in another size, by bilinear interpolation between pixel centres (made for enlarging: nothing is
 /// averaged). \throws std::runtime_error for an image without pixels.
 Image resized(const Image& image, int width, int height);
 
 /// Writes `.png` (8 bits, over black where it is not opaque) or `.exr` (32-bit float RGBA) by extension. The file
-/// appears whole or not at all: it is written beside and renamed. \throws std::runtime_error
+/// appears whole or not at all: it is written beside and renamed. \throws std::runtime_error, also for a picture
+/// that is not finite everywhere
 void writeImage(const Image& image, const std::string& path);
 
 /// Whether files with this ending hold any number, not only 0 … 1. \throws std::runtime_error for an unknown ending

@@ -43,6 +43,7 @@ void checkImagePath(const std::string& path) {
 }
 
 void writeImage(const Image& image, const std::string& path) {
+    requireFinite(image, path);
     writeWholeFile(path, formatOf(path).encode(image, path));
 }
 

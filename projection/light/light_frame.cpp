@@ -32,7 +32,8 @@ LightModelFloats lightModelFloats(const shading::ShadingSettings& settings) {
 }
 
 std::vector<FrameLight> frameLights(const shading::ShadingSettings& settings, const SceneUnits& units,
-                                    const CameraFrame& frame) {
+                                    const CameraFrame& frame, double depthReference) {
+    const glm::dvec3 origin = frame.eye + depthReference * units.length * frame.forward;
     std::vector<FrameLight> lights;
     for (const shading::Light& light : settings.lights) {
         FrameLight one;
@@ -41,8 +42,8 @@ std::vector<FrameLight> frameLights(const shading::ShadingSettings& settings, co
         if (light.kind == shading::Light::Kind::Directional) {
             one.place = glm::vec3(glm::normalize(light.towards));
         } else {
-            if (light.kind == shading::Light::Kind::Point)
-                one.place = glm::vec3((light.position - frame.eye) / units.length);
+            const bool atEye = light.kind != shading::Light::Kind::Point;
+            one.place = glm::vec3(((atEye ? frame.eye : light.position) - origin) / units.length);
             one.fade = glm::vec3(light.attenuation * glm::dvec3(1, units.length, units.length * units.length));
         }
         lights.push_back(one);

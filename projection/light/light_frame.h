@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
 /// Lights and materials as the fast engines read them: floats, lengths in scene units, directions along the world's
-/// axes, places relative to the eye (so that float holds them wherever the mesh lies).
+/// axes, places relative to a point of the view's axis near the mesh (so that float holds them wherever the mesh lies and
+/// however far the eye is).
 #pragma once
 
 #include <array>
@@ -20,7 +21,7 @@ namespace tetralux::projection {
 /// One light for one camera.
 struct FrameLight {
     int kind = 0;        ///< 0 directional, 1 point, 2 at the eye
-    glm::vec3 place{0};  ///< direction towards it, or place relative to the eye
+    glm::vec3 place{0};  ///< direction towards it, or place
     glm::vec3 color{1};
     glm::vec3 fade{1, 0, 0};  ///< attenuation: constant, per scene length, per scene length squared
 };
@@ -36,8 +37,9 @@ struct LightModelFloats {
 };
 
 LightModelFloats lightModelFloats(const shading::ShadingSettings& settings);
+/// Places are relative to the point on the view's axis at `depthReference` (scene lengths; depthReferenceOf).
 std::vector<FrameLight> frameLights(const shading::ShadingSettings& settings, const SceneUnits& units,
-                                    const CameraFrame& frame);
+                                    const CameraFrame& frame, double depthReference);
 
 /// What vertices carry for the scene's light: what the scene brings along, or else computed now, with anisotropy that
 /// was `kept`.

@@ -175,7 +175,7 @@ void addSurfaceShadows(const Scene& scene, shading::VertexLight& light) {
     if (!rays.hasSurfaces()) return;
     const VertexStarts starts(mesh, rays);
     std::map<CellSurfaces, std::uint32_t> cases;
-    std::vector<mesh::Tetrahedron> corners = mesh.cells;
+    std::vector<mesh::Tetrahedron> corners(mesh.cells.begin(), mesh.cells.end());
     const std::vector<SurfaceCorner> own = surfaceCorners(scene, rays, cases, corners);
     if (own.empty()) return;
     light.corners = std::move(corners);

@@ -7,8 +7,6 @@
 #include <array>
 #include <optional>
 
-#include <glm/common.hpp>
-
 #include <projection/cells/projected_cell.h>
 #include <projection/cells/ray_triangle.h>
 #include <projection/reference/reference_ray_caster.h>
@@ -91,7 +89,8 @@ inline std::optional<RaySegment> cut(const RayFrame& ray, const mesh::ScalarMesh
     }
     if (!entered || !left || !(segment.tOut > segment.tIn) || !(segment.tOut > 0)) return std::nullopt;
     if (segment.tIn < 0) {  // the ray starts inside
-        segment.scalarIn = glm::mix(segment.scalarIn, segment.scalarOut, -segment.tIn / (segment.tOut - segment.tIn));
+        segment.scalarIn =
+            scalarBetween(segment.scalarIn, segment.scalarOut, -segment.tIn / (segment.tOut - segment.tIn));
         segment.tIn = 0;
     }
     return segment;

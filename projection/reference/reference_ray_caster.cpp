@@ -456,13 +456,13 @@ glm::dvec4 ReferenceRayCaster::composite(const Ray& ray, const preint::ExactInte
                     return {glm::dvec3(limits.depths.greyAt(*distance)), 1.0};
             return glm::dvec4(0);
         case Mode::Average: {
-            double sum = 0, length = 0;
+            double mean = 0, length = 0;  // from differences: of equal numbers it is that number
             for (const RaySegment& segment : segments) {
                 const double l = segment.tOut - segment.tIn;
-                sum += (0.5 * segment.scalarIn + 0.5 * segment.scalarOut) * l;
                 length += l;
+                mean += (0.5 * segment.scalarIn + 0.5 * segment.scalarOut - mean) * (l / length);
             }
-            return {function.colorAt(sum / length), 1.0};
+            return {function.colorAt(mean), 1.0};
         }
         case Mode::FirstHit:
             for (const RaySegment& segment : segments) {

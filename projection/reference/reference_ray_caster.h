@@ -5,6 +5,7 @@
 /// planes.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -27,6 +28,12 @@ struct RaySegment {
     mesh::CellIndex cell;
     bool inCutLayer = false;  ///< lit by the normal of a cut (PixelMaps::cutLayerEnd)
 };
+
+/// A share of the way from one scalar to another: from their difference, so that between equal numbers it is that number
+/// and between others none beyond them.
+inline double scalarBetween(double from, double to, double share) {
+    return share < 1.0 ? std::clamp(from + share * (to - from), std::min(from, to), std::max(from, to)) : to;
+}
 
 struct RayCastCounts {
     std::uint64_t cellsDrawn = 0;  ///< cells that at least one ray meets

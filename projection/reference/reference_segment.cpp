@@ -7,6 +7,8 @@
 
 #include <glm/common.hpp>
 
+#include <preint/value_from_above.h>
+
 namespace tetralux::projection {
 
 namespace {
@@ -19,7 +21,7 @@ double pathOf(const RaySegment& segment, preint::Integral integral) {
 }
 
 bool crosses(const RaySegment& segment, const preint::Isosurface& surface) {
-    return surface.opacity > 0 && (segment.scalarIn < surface.value) != (segment.scalarOut < surface.value);
+    return surface.opacity > 0 && glsl::crossesValue(segment.scalarIn, segment.scalarOut, surface.value);
 }
 
 /// The scalars from front to back at which the segment meets nodes, its ends included.
@@ -173,8 +175,8 @@ bool limit(RaySegment& segment, double nearest, double farthest) {
     if (!(tOut > tIn)) return false;
     const double from = segment.scalarIn, to = segment.scalarOut, start = segment.tIn;
     const double length = segment.tOut - segment.tIn;
-    if (tIn > segment.tIn) segment.scalarIn = glm::mix(from, to, (tIn - start) / length);
-    if (tOut < segment.tOut) segment.scalarOut = glm::mix(from, to, (tOut - start) / length);
+    if (tIn > segment.tIn) segment.scalarIn = scalarBetween(from, to, (tIn - start) / length);
+    if (tOut < segment.tOut) segment.scalarOut = scalarBetween(from, to, (tOut - start) / length);
     segment.tIn = tIn;
     segment.tOut = tOut;
     return true;
@@ -187,8 +189,8 @@ void splitAtLayerEnd(std::vector<RaySegment>& segments, double layerEnd) {
         if (!segment.inCutLayer || !(segment.tOut > layerEnd)) continue;
         RaySegment behind = segment;
         behind.inCutLayer = false;
-        behind.scalarIn = segment.scalarOut = glm::mix(segment.scalarIn, segment.scalarOut,
-                                                       (layerEnd - segment.tIn) / (segment.tOut - segment.tIn));
+        behind.scalarIn = segment.scalarOut = scalarBetween(
+            segment.scalarIn, segment.scalarOut, (layerEnd - segment.tIn) / (segment.tOut - segment.tIn));
         behind.tIn = segment.tOut = layerEnd;
         segments.push_back(behind);
     }

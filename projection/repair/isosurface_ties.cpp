@@ -23,10 +23,7 @@ namespace {
 /// Pixels from the sample to the farthest line that it may lie behind.
 constexpr double tieDistance = 2.0 * EdgeOnPlanes::widely.x;
 
-/// The same for lines that are met exactly, as those of symmetric scenes are: by chance hardly any is.
-constexpr double exactDistance = 1e-7;
-
-constexpr Nearness near{0.0, tieDistance}, exact{0.0, exactDistance}, nearNotExact{exactDistance, tieDistance};
+constexpr Nearness near{0.0, tieDistance}, exact{0.0, exactTie};
 
 using Corners = std::array<glm::dvec2, 3>;
 
@@ -63,7 +60,9 @@ public:
           frame_(frame),
           pixelOf_(frame),
           support_(extinctionSupport(scene.transferFunction)),
-          integral_(integralOf(scene.settings.mode)) {}
+          integral_(integralOf(scene.settings.mode)),
+          everyScalarShows_(scene.settings.mode == Mode::Mip || scene.settings.mode == Mode::Minimum ||
+                            scene.settings.mode == Mode::Average) {}
 
     /// Pixels that an edge of the cell, if it shows, passes.
     void addEdges(mesh::CellIndex cell, Nearness wanted, std::vector<std::uint32_t>& pixels) const {
@@ -73,24 +72,11 @@ public:
             for (std::size_t j = i + 1; j < 4; ++j) addNearLine(at[i], at[j], wanted, frame_, pixels);
     }
 
-    /// Pixels near, but not on, the edges of faces that are seen edge-on.
-    void addEdgeOnFaces(mesh::CellIndex cell, std::vector<std::uint32_t>& pixels) const {
-        std::array<glm::dvec2, 4> at;
-        if (!see(scene_.mesh->cells[cell], at)) return;
-        for (const auto& face : mesh::faceVertices) {
-            SeenFace seen{};
-            for (std::size_t i = 0; i < 3; ++i) seen.at[i] = at[static_cast<std::size_t>(face[i])];
-            if (!seen.edgeOn() || !shows(cell)) continue;
-            for (std::size_t i = 0; i < 3; ++i)
-                addNearLine(seen.at[i], seen.at[(i + 1) % 3], nearNotExact, frame_, pixels);
-        }
-    }
-
     void add(mesh::CellIndex cell, std::vector<std::uint32_t>& pixels) const {
         const mesh::ScalarMesh& mesh = *scene_.mesh;
         const glm::dvec2 scalars = scalarRange(mesh, cell);
         for (const preint::Isosurface& surface : scene_.transferFunction.isosurfaces) {
-            if (!(scalars.x < surface.value && surface.value <= scalars.y)) continue;
+            if (!glsl::crossesValue(scalars.x, scalars.y, surface.value)) continue;
             std::array<glm::dvec2, 4> at;
             if (!see(mesh.cells[cell], at)) return;
             for (const auto& face : mesh::faceVertices) {
@@ -106,6 +92,7 @@ public:
 
 private:
     bool shows(mesh::CellIndex cell) const {
+        if (everyScalarShows_) return true;
         const glm::dvec2 scalars = scalarRange(*scene_.mesh, cell);
         return rangeShows(scene_.transferFunction, support_, scalars.x, scalars.y, integral_);
     }
@@ -124,8 +111,9 @@ private:
     const Scene& scene_;
     const CameraFrame& frame_;
     const PointPixel pixelOf_;
-    const std::vector<glm::dvec2> support_;
+    const std::vector<ShownScalars> support_;
     const preint::Integral integral_;
+    const bool everyScalarShows_;
 };
 
 /// What add(cell, pixels) finds, for every `step`th cell.
@@ -145,10 +133,10 @@ std::vector<std::uint32_t> ofCells(const Scene& scene, mesh::CellIndex step, Add
 }  // namespace
 
 std::vector<std::uint32_t> tiedPixels(const Scene& scene, const CameraFrame& frame) {
+    if (scene.transferFunction.isosurfaces.empty()) return {};
     const CellTies ties(scene, frame);
     return ofCells(scene, 1, [&](mesh::CellIndex cell, auto& pixels) {
-        ties.addEdgeOnFaces(cell, pixels);
-        if (!scene.transferFunction.isosurfaces.empty()) ties.add(cell, pixels);
+        ties.add(cell, pixels);
     });
 }
 

@@ -9,11 +9,12 @@
 
 namespace tetralux::projection {
 
-/// Pixels (y·width + x, in no order, some twice) whose centre a line at which the picture may jump passes so closely
-/// that a sample EdgeOnPlanes::widely beside it may lie on the other side: an isosurface's within a face, of which an
-/// outline may be there, or the edge of a face that is seen edge-on, which may be the wall of a cell. Faces upon which
-/// centres lie exactly are not among the latter: samples stand beside the centres on the side on which those of the
-/// reference do.
+/// Pixels from the centre of a pixel to a line that is met exactly, as those of symmetric scenes are: by chance hardly any
+/// is.
+inline constexpr double exactTie = 1e-7;
+
+/// Pixels (y·width + x, in no order, some twice) whose centre an isosurface's line within a face, of which an outline may
+/// be there, passes so closely that a sample EdgeOnPlanes::widely beside it may lie on the other side.
 std::vector<std::uint32_t> tiedPixels(const Scene& scene, const CameraFrame& frame);
 
 /// Likewise pixels whose centre an edge of a cell that shows passes: where a ray runs along edges, which of their cells

@@ -480,7 +480,7 @@ Image GlEngine::render(const View& view, FrameReport& report) {
     checkStop(view.control);
     Image image = state_->target->read();
     const GlGathered gathered{mode(), depthRange(scene_.mesh->bounds, view.camera),
-                              depthReferenceOf(scene_.mesh->bounds, frame, units_), units_.length};
+                              depthReferenceOf(scene_.mesh->bounds, frame, units_), units_.length, scene_.settings.contributions.sums};
     const std::vector<std::uint32_t> doubtful = resolveOrderFree(image, gathered, scalarColors_);
     report.doubtfulPixels.insert(report.doubtfulPixels.end(), doubtful.begin(), doubtful.end());
     stages["read back"] = watch.lap();

@@ -39,8 +39,7 @@ std::vector<std::uint32_t> resolveOrderFree(Image& image, const GlGathered& fram
                 return colorOf(gathered.y > 0.0f, gathered.x / gathered.y);
             case Mode::Additive:
             case Mode::DataAdditive:
-                return scene.settings.contributions.sums ? gathered
-                                                         : glm::vec4(glm::vec3(gathered), std::min(gathered.w, 1.0f));
+                return frame.sums ? gathered : glm::vec4(glm::vec3(gathered), std::min(gathered.w, 1.0f));
             case Mode::Emission:
                 return {glm::vec3(gathered), 0.0f};
             case Mode::Absorption:

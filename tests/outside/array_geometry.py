@@ -129,7 +129,7 @@ def across_rays(points, origins, directions):
 def segments_of(mesh, origins, directions):
     """All segments at distances t >= 0. `t` and `s` are in extended precision.
 
-    Rays are moved aside by a billionth of what double precision can tell of the points: where a ray meets an edge exactly it is on one
+    Rays are moved aside by a hundredth of what double precision can tell of the points: where a ray meets an edge exactly it is on one
     side of it then, the same for all cells. What remains of cells that were only touched is shorter than that by far, and left out.
     """
     moved = REAL(1e-18) * (mesh.reach + float(np.abs(origins).max()))

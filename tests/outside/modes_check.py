@@ -6,6 +6,7 @@ A mode of the table is a statement, and so is each paragraph with a heading in b
 that has it. One that the page has and the list has not is an error. Pictures are held to array_caster.py, which was written from that page.
 Status 1 where a picture differs, 77 where there is no numpy.
 """
+import json
 import os
 import re
 import sys
@@ -23,8 +24,6 @@ from array_transfer import TransferFunction
 from random_meshes import lattice
 from random_scenes import draw, judge, write_vtu
 from random_views import camera_of, triple, unit_double
-
-import json
 
 SIZE = (20, 16)
 LIMITS = {"reference": 1e-6, "cpu": 2e-5, "gl": 1e-4}  # an EXR holds floats; float sums and closed forms to 1e-6; tables made for 1e-4

@@ -74,7 +74,9 @@ TEST(AdaptiveOpacity, LengthIsCountedInPieces) {
                         << engine << ' ' << x << ' ' << y;
                 }
             EXPECT_GT(bounded, 20);
-            if (most > 0.1) EXPECT_GT(free, 100);
+            if (most > 0.1) {
+                EXPECT_GT(free, 100);
+            }
         }
     }
 }

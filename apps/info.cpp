@@ -8,6 +8,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -58,6 +59,7 @@ nlohmann::json fieldJson(const mesh::FieldStatistics& field) {
     return {{"name", field.name},
             {"on", placeName(field.association)},
             {"components", field.components},
+            {"component_names", field.componentNames},
             {"bookkeeping", field.bookkeeping},
             {"min", field.low},
             {"max", field.high},
@@ -83,6 +85,7 @@ nlohmann::json infoJson(const InfoOptions& options, const Findings& found) {
             {"faces",
              {{"inner", all.innerFaces}, {"boundary", all.boundaryFaces}, {"delaunay_share", all.delaunayShare()}}},
             {"components", {{"count", all.components}, {"largest", all.largestComponent}}},
+            {"notes", found.report.notes},
             {"memory_bytes", all.memoryBytes},
             {"fields", fields},
             {"defects", defectsJson(found.report)}};
@@ -102,9 +105,16 @@ std::string sketch(const std::vector<std::uint64_t>& histogram) {
     return fmt::format("  |{}|", line);
 }
 
+std::string componentsText(const mesh::FieldStatistics& field) {
+    if (field.components == 1) return "";
+    const std::string names =
+        field.componentNames.empty() ? "" : fmt::format(" ({})", fmt::join(field.componentNames, ", "));
+    return fmt::format(", {} components{}, magnitude", field.components, names);
+}
+
 void printField(const mesh::FieldStatistics& field) {
     fmt::print("  {} on {}{}: {:.6g} to {:.6g}, mean {:.6g}{}", field.name, placeName(field.association),
-               field.components > 1 ? fmt::format(", {} components, magnitude", field.components) : "", field.low,
+               componentsText(field), field.low,
                field.high, field.mean, sketch(field.histogram));
     if (field.nonFinite > 0) fmt::print(" ({} values are NaN or infinite)", field.nonFinite);
     if (field.bookkeeping) fmt::print(" (bookkeeping)");
@@ -117,6 +127,7 @@ void printInfo(const InfoOptions& options, const Findings& found) {
     fmt::print("{}\n", options.source);
     for (const auto& [type, count] : found.report.cellTypes) fmt::print("cells: {} {}\n", count, type);
     for (const auto& [reason, count] : found.report.skipped) fmt::print("left out: {} ({})\n", count, reason);
+    for (const std::string& note : found.report.notes) fmt::print("note: {}\n", note);
     fmt::print("tetrahedra: {} in {} connected component{}\n", all.cells, all.components,
                all.components == 1 ? "" : fmt::format("s, the largest of {}", all.largestComponent));
     fmt::print("points: {}\n", all.points);

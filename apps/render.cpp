@@ -98,6 +98,7 @@ std::string errorTooLargeLine(double maxError, const projection::Verification& f
 
 void tell(const RenderOptions& options, const std::vector<std::string>& paths, const SceneRenderer& renderer) {
     const RenderRecord& record = renderer.record();
+    for (const std::string& note : record.mesh.notes) fmt::print("{}: {}\n", options.source, note);
     for (const std::string& line : defectLines(record.mesh)) fmt::print("{}: {}\n", options.source, line);
     if (!record.interfacesChecked)
         fmt::print("{}: not checked whether cells overlap or do not fit together; --check does it\n", options.source);

@@ -140,6 +140,7 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
           {"drawn", first.cellsDrawn},
           {"skipped", skippedCells(record, first)}}},
         {"points_merged", record.mesh.pointsMerged},
+        {"notes", record.mesh.notes},
         {"defects", defectsJson(record.mesh)},
         {"interfaces_checked", record.interfacesChecked},
         {"order",

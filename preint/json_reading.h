@@ -44,6 +44,9 @@ private:
 /// The object's keys must be among `known` (a comma-separated list for the message).
 void requireKnownKeys(const JsonPlace& object, const std::vector<std::string>& known);
 
+/// A colour map in ParaView's old XML or VisIt's, as ParaView exports it now.
+nlohmann::json xmlColorMap(const std::string& text, const std::string& origin);
+
 bool isParaViewColorMap(const nlohmann::json& document);
 
 /// A colour map as ParaView exports it: `RGBPoints` in `ColorSpace`, opacity `Points`.

@@ -2,7 +2,8 @@
 /// \file
 /// Colour maps exported by ParaView: a list of one object with `RGBPoints` (s, r, g, b, …), `ColorSpace` and, when
 /// opacity was exported too, `Points` (s, opacity, midpoint, sharpness, …), interpolated as VTK's vtkPiecewiseFunction
-/// does.
+/// does. `UseLogScale` makes all of that linear in the logarithm of s; nodes close enough together follow it to within
+/// 1/1024 of a channel and of the largest opacity.
 ///
 /// Opacity becomes extinction as VTK's unstructured volume mappers take it: attenuation per unit distance. ParaView's
 /// unit distance is about one cell (diagonal / cells^⅓), which a colour map does not know, so it is 1/50 of the extent
@@ -136,6 +137,76 @@ const nlohmann::json& onlyMap(const nlohmann::json& document, const std::string&
     return document.front();
 }
 
+bool usesLogScale(const JsonPlace& map) {
+    if (!map.value().contains("UseLogScale")) return false;
+    const nlohmann::json& flag = map.value().at("UseLogScale");
+    return flag == 1 || flag == true;
+}
+
+/// The scalars that a map gives, by their logarithms.
+using Given = std::map<double, double>;
+
+/// Puts nodes on a logarithmic axis. \throws std::runtime_error if they have no place there.
+template <class Node>
+void takeLogarithms(const JsonPlace& map, std::vector<Node>& nodes, Given& given) {
+    for (Node& node : nodes) {
+        if (!(node.scalar > 0.0)) {
+            map.member("UseLogScale")
+                .fail(fmt::format("needs points above 0, and one is at {}; rescale the map to the data in ParaView and "
+                                  "export it again, or leave the scale linear",
+                                  node.scalar));
+        }
+        const double logarithm = std::log(node.scalar);
+        node.scalar = given.try_emplace(logarithm, node.scalar).first->first;
+    }
+}
+
+/// Takes nodes back from there, with further ones between: over a ratio q of scalars a chord of the logarithm is off by
+/// at most (ln q)² / 8, and `change(a, b)` is how much there is between two nodes, in units of the error allowed.
+template <class Node, class Change, class Between>
+std::vector<Node> fromLogarithms(const std::vector<Node>& nodes, const Given& given, const Change& change, const Between& between) {
+    std::vector<Node> result;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (i > 0 && nodes[i].scalar > nodes[i - 1].scalar) {
+            const Node &low = nodes[i - 1], &high = nodes[i];
+            const double pieces = std::ceil(std::sqrt((high.scalar - low.scalar) * change(low, high) / 8.0));
+            constexpr double mostPieces = 1000;
+            const int count = static_cast<int>(std::min(pieces, mostPieces));
+            for (int k = 1; k < count; ++k) {
+                const double fraction = static_cast<double>(k) / count;
+                Node node = between(low, high, fraction);
+                node.scalar = std::exp(std::lerp(low.scalar, high.scalar, fraction));
+                result.push_back(node);
+            }
+        }
+        result.push_back(nodes[i]);
+        const auto original = given.find(nodes[i].scalar);  // not rounded twice
+        result.back().scalar = original != given.end() ? original->second : std::exp(nodes[i].scalar);
+    }
+    return result;
+}
+
+std::vector<ColorNode> colorsFromLogarithms(const std::vector<ColorNode>& nodes, const Given& given) {
+    const auto change = [](const ColorNode& a, const ColorNode& b) {
+        const glm::dvec3 difference = glm::abs(b.color - a.color);
+        return 1024.0 * std::max({difference.x, difference.y, difference.z});
+    };
+    return fromLogarithms(nodes, given, change, [](const ColorNode& a, const ColorNode& b, double fraction) {
+        return ColorNode{0.0, glm::mix(a.color, b.color, fraction)};
+    });
+}
+
+std::vector<ExtinctionNode> extinctionFromLogarithms(const std::vector<ExtinctionNode>& nodes, const Given& given) {
+    double largest = 0.0;
+    for (const ExtinctionNode& node : nodes) largest = std::max(largest, node.extinction);
+    const auto change = [&](const ExtinctionNode& a, const ExtinctionNode& b) {
+        return largest > 0.0 ? 1024.0 * std::abs(b.extinction - a.extinction) / largest : 0.0;
+    };
+    return fromLogarithms(nodes, given, change, [](const ExtinctionNode& a, const ExtinctionNode& b, double fraction) {
+        return ExtinctionNode{0.0, std::lerp(a.extinction, b.extinction, fraction)};
+    });
+}
+
 }  // namespace
 
 bool isParaViewColorMap(const nlohmann::json& document) {
@@ -150,16 +221,24 @@ TransferFunction paraViewColorMap(const nlohmann::json& document, const std::str
         map.fail("is a ParaView color map without RGBPoints (a categorical one?); export one with RGBPoints");
     }
     TransferFunction function;
-    const std::vector<ColorNode> nodes = colorPoints(map.member("RGBPoints"));
-    function.color = sampledInRgb(colorSpaceOf(map), nodes);
+    const bool logarithmic = usesLogScale(map);
+    std::vector<ColorNode> nodes = colorPoints(map.member("RGBPoints"));
     // ParaView's own presets span [0, 1] and stand for the field's range.
     function.normalized = nodes.front().scalar == 0.0 && nodes.back().scalar == 1.0;
     function.extinctionPerExtent = true;
-    if (map.value().contains("Points")) {
-        function.extinction = extinctionFrom(opacityPoints(map.member("Points")));
-    } else {  // colours alone: opacity as ParaView starts with, a ramp over the same range
-        const OpacityPoint low{nodes.front().scalar, 0.0, 0.5, 0.0}, high{nodes.back().scalar, 1.0, 0.5, 0.0};
-        function.extinction = extinctionFrom({low, high});
+    // Colours alone: opacity as ParaView starts with, a ramp over the same range.
+    std::vector<OpacityPoint> opacities{{nodes.front().scalar, 0.0, 0.5, 0.0}, {nodes.back().scalar, 1.0, 0.5, 0.0}};
+    if (map.value().contains("Points")) opacities = opacityPoints(map.member("Points"));
+    Given given;
+    if (logarithmic) {
+        takeLogarithms(map, nodes, given);
+        takeLogarithms(map, opacities, given);
+    }
+    function.color = sampledInRgb(colorSpaceOf(map), nodes);
+    function.extinction = extinctionFrom(opacities);
+    if (logarithmic) {
+        function.color = colorsFromLogarithms(function.color, given);
+        function.extinction = extinctionFromLogarithms(function.extinction, given);
     }
     return function;
 }

@@ -2,6 +2,7 @@
 #include <preint/transfer_function.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -149,6 +150,10 @@ double TransferFunction::extinctionAt(double scalar) const {
 }
 
 TransferFunction parseTransferFunction(const std::string& json, const std::string& origin) {
+    if (json.find_first_not_of(" \t\r\n\xef\xbb\xbf") != std::string::npos &&
+        json[json.find_first_not_of(" \t\r\n\xef\xbb\xbf")] == '<') {
+        return paraViewColorMap(xmlColorMap(json, origin), origin);
+    }
     nlohmann::json document;
     try {
         document = nlohmann::json::parse(json);
@@ -160,6 +165,27 @@ TransferFunction parseTransferFunction(const std::string& json, const std::strin
                                         : functionFrom(JsonPlace(document, origin));
 }
 
+/// What other programs keep colours in and what to do with it.
+void refuseOtherKinds(const std::string& path) {
+    static const std::array<std::array<const char*, 2>, 8> kinds{
+        {{".vp", "a volume property of 3D Slicer"},
+         {".ctbl", "a color table of 3D Slicer"},
+         {".cpt", "a palette of GMT"},
+         {".gpl", "a palette of GIMP"},
+         {".lut", "a lookup table"},
+         {".act", "a color table of Photoshop"},
+         {".cmap", "a color map"},
+         {".xmf", "XDMF"}}};
+    for (const auto& [extension, kind] : kinds) {
+        if (path.ends_with(extension)) {
+            throw std::runtime_error(
+                fmt::format("{}: is {}, which is not read; write its points as {{\"color\": [[s, r, g, b], ...], "
+                            "\"extinction\": [[s, t], ...]}}, or export a color map from ParaView",
+                            path, kind));
+        }
+    }
+}
+
 TransferFunction readTransferFunction(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file) throw std::runtime_error(fmt::format("{}: cannot be opened; check the path and its permissions", path));
@@ -167,6 +193,7 @@ TransferFunction readTransferFunction(const std::string& path) {
     if (file.bad() || text.empty()) {
         throw std::runtime_error(fmt::format("{}: is empty or cannot be read; give a JSON transfer function", path));
     }
+    refuseOtherKinds(path);
     return parseTransferFunction(text, path);
 }
 

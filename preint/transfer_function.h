@@ -40,7 +40,7 @@ struct TransferFunction {
     double extinctionAt(double scalar) const;
 };
 
-/// Reads the JSON of a transfer function or a colour map that ParaView exported.
+/// Reads the JSON of a transfer function, a colour map that ParaView exported or the XML of one (ParaView's, VisIt's).
 /// \throws std::runtime_error naming file, place and remedy.
 TransferFunction readTransferFunction(const std::string& path);
 

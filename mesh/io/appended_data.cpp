@@ -6,7 +6,9 @@
 #include <atomic>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <string_view>
 #include <type_traits>
@@ -15,6 +17,8 @@
 #include <lz4.h>
 #include <tbb/parallel_for.h>
 #include <unistd.h>
+
+#include <mesh/io/number_text.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -92,11 +96,16 @@ bool isSpace(char c) {
 }
 
 constexpr std::uint64_t textPiece = 1u << 20;
-constexpr std::uint64_t longestWord = 64;
+constexpr std::uint64_t longestWord = 512;
+
+struct Words {
+    std::string_view text;
+    std::uint64_t place = 0;  ///< of its first byte in the file
+};
 
 /// The words that begin in piece `piece` of the text from `start` to `end`. Valid until the thread's next call.
 /// \returns false if the file ends before, or a word is longer than any number.
-bool readWords(int file, std::uint64_t start, std::uint64_t end, std::size_t piece, std::string_view& words) {
+bool readWords(int file, std::uint64_t start, std::uint64_t end, std::size_t piece, Words& words) {
     const std::uint64_t first = start + piece * textPiece;
     const std::uint64_t before = first > start ? first - 1 : first;  // to tell whether a word began there
     const std::uint64_t nominal = std::min(end, first + textPiece);
@@ -114,31 +123,49 @@ bool readWords(int file, std::uint64_t start, std::uint64_t end, std::size_t pie
     while (to > 0 && to < bytes.size() && !isSpace(bytes[to - 1]) && !isSpace(bytes[to])) {
         ++to;
     }
-    words = from < to ? std::string_view(bytes.data() + from, to - from) : std::string_view();
+    words = {from < to ? std::string_view(bytes.data() + from, to - from) : std::string_view(), before + from};
     return to < bytes.size() || last == end;
 }
 
-/// \returns false unless `text` holds exactly as many numbers as `values` has room for.
+/// The number that a text begins with. \returns where it ends, nullptr if there is none that T holds.
 template <class T>
-bool parseWords(std::string_view text, std::vector<T>& values) {
+const char* parseWord(const char* at, const char* end, bool single, T& value) {
+    if constexpr (std::is_floating_point_v<T>) {
+        auto [stop, error] = std::from_chars(at, end, value);
+        if (error != std::errc() || (stop != end && !isSpace(*stop))) {
+            stop = std::find_if(at, end, isSpace);
+            if (parseNumber(std::string_view(at, static_cast<std::size_t>(stop - at)), value) != NumberText::Good) {
+                return nullptr;
+            }
+        }
+        const T largest = std::numeric_limits<float>::max();
+        value = single && std::abs(value) <= largest ? static_cast<float>(value) : value;
+        return stop;
+    } else {
+        // Bytes are numbers in these files, not characters.
+        std::conditional_t<sizeof(T) == 1, int, T> number{};
+        const auto [stop, error] = std::from_chars(at + (*at == '+' ? 1 : 0), end, number);
+        value = static_cast<T>(number);
+        return error == std::errc() && (stop == end || isSpace(*stop)) && value == number ? stop : nullptr;
+    }
+}
+
+/// Parses as many numbers as `values` has room for. \returns the word that is none, or nullptr.
+template <class T>
+const char* parseWords(std::string_view text, bool single, std::vector<T>& values) {
     const char* at = text.data();
     const char* const end = at + text.size();
     for (T& value : values) {
         while (at != end && isSpace(*at)) {
             ++at;
         }
-        // Bytes are numbers in these files, not characters.
-        std::conditional_t<sizeof(T) == 1, int, T> number{};
-        const auto [stop, error] = std::from_chars(at, end, number);
-        if (error != std::errc() || (stop != end && !isSpace(*stop)) || static_cast<T>(number) != number) {
-            if (number == number) {
-                return false;
-            }
+        const char* const stop = at == end ? nullptr : parseWord(at, end, single, value);
+        if (stop == nullptr) {
+            return at;
         }
-        value = static_cast<T>(number);
         at = stop;
     }
-    return true;
+    return nullptr;
 }
 
 }  // namespace
@@ -252,23 +279,24 @@ bool EncodedArray::forEachPiece(const std::function<void(std::uint64_t, const ch
 }
 
 template <class T>
-TextArray<T>::TextArray(int file, std::uint64_t start, std::uint64_t end) : file_(file), start_(start), end_(end) {
+TextArray<T>::TextArray(int file, std::uint64_t start, std::uint64_t end, bool single)
+    : file_(file), start_(start), end_(end), single_(single) {
     const std::size_t pieces = static_cast<std::size_t>((end - start + textPiece - 1) / textPiece);
     firsts_.assign(pieces + 1, 0);
     std::atomic<bool> good = true;
     tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t piece) {
-        std::string_view text;
-        if (!readWords(file_, start_, end_, piece, text)) {
+        Words words;
+        if (!readWords(file_, start_, end_, piece, words)) {
             good.store(false, std::memory_order_relaxed);
         }
-        std::uint64_t words = 0;
+        std::uint64_t count = 0;
         bool before = true;  // a space
-        for (const char c : text) {
+        for (const char c : words.text) {
             const bool space = isSpace(c);
-            words += before && !space ? 1 : 0;
+            count += before && !space ? 1 : 0;
             before = space;
         }
-        firsts_[piece + 1] = words;
+        firsts_[piece + 1] = count;
     });
     for (std::size_t piece = 0; piece < pieces; ++piece) {
         firsts_[piece + 1] += firsts_[piece];
@@ -281,10 +309,10 @@ bool TextArray<T>::forEachPiece(const std::function<void(std::uint64_t, const ch
     std::atomic<bool> good = true;
     tbb::parallel_for(std::size_t{0}, firsts_.size() - 1, [&](std::size_t piece) {
         thread_local std::vector<T> values;
-        std::string_view text;
+        Words words;
         values.resize(static_cast<std::size_t>(firsts_[piece + 1] - firsts_[piece]));
-        if (good.load(std::memory_order_relaxed) && readWords(file_, start_, end_, piece, text) &&
-            parseWords(text, values)) {
+        if (good.load(std::memory_order_relaxed) && readWords(file_, start_, end_, piece, words) &&
+            parseWords(words.text, single_, values) == nullptr) {
             use(firsts_[piece], reinterpret_cast<const char*>(values.data()), values.size());
         } else {
             good.store(false, std::memory_order_relaxed);
@@ -293,8 +321,25 @@ bool TextArray<T>::forEachPiece(const std::function<void(std::uint64_t, const ch
     return good;
 }
 
+template <class T>
+std::optional<BadWord> TextArray<T>::firstBadWord() const {
+    std::vector<T> values;
+    for (std::size_t piece = 0; piece + 1 < firsts_.size(); ++piece) {
+        Words words;
+        values.resize(static_cast<std::size_t>(firsts_[piece + 1] - firsts_[piece]));
+        if (!readWords(file_, start_, end_, piece, words)) {
+            break;
+        }
+        if (const char* const bad = parseWords(words.text, single_, values); bad != nullptr) {
+            const char* const last = words.text.data() + words.text.size();
+            return BadWord{std::string(bad, std::find_if(bad, last, isSpace)),
+                           words.place + static_cast<std::uint64_t>(bad - words.text.data())};
+        }
+    }
+    return std::nullopt;
+}
+
 template class TextArray<double>;
-template class TextArray<float>;
 template class TextArray<std::int64_t>;
 template class TextArray<std::int32_t>;
 template class TextArray<std::int16_t>;

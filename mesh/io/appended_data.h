@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <mesh/io/vtu_head.h>
@@ -61,19 +63,28 @@ private:
     bool sound_ = false;
 };
 
+/// A word of a text array that is no number, or none that its type can hold, and where in the file it begins.
+struct BadWord {
+    std::string word;
+    std::uint64_t place = 0;
+};
+
 /// One array of numbers in plain text, of type T; otherwise as EncodedArray.
 template <class T>
 class TextArray {
 public:
-    /// The numbers stand in bytes `start` to `end` of the file.
-    TextArray(int file, std::uint64_t start, std::uint64_t end);
+    /// The numbers stand in bytes `start` to `end` of the file. Values that fit are rounded to float if `single`.
+    TextArray(int file, std::uint64_t start, std::uint64_t end, bool single = false);
     bool isSound() const { return sound_; }
     std::uint64_t elements() const { return firsts_.empty() ? 0 : firsts_.back(); }
     bool forEachPiece(const std::function<void(std::uint64_t, const char*, std::uint64_t)>& use) const;
+    /// The first of all, if there is one.
+    std::optional<BadWord> firstBadWord() const;
 
 private:
     int file_;
     std::uint64_t start_, end_;
+    bool single_;
     std::vector<std::uint64_t> firsts_;  ///< number of the first value of each piece of text, and of values
     bool sound_ = false;
 };

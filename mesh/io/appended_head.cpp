@@ -31,10 +31,13 @@ AppendedHead::AppendedHead(const char* type)
                        "header_type=\"UInt64\">\n<{0}>\n",
                        type, std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")) {}
 
-void AppendedHead::declare(const char* type, const std::string& name, int components, std::uint64_t bytes) {
-    xml_ += fmt::format(
-        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
-        escapedXml(name), components, offset_);
+void AppendedHead::declare(const char* type, const std::string& name, int components, std::uint64_t bytes,
+                           const std::vector<std::string>& componentNames) {
+    xml_ +=
+        fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"", type, escapedXml(name), components);
+    for (std::size_t c = 0; c < componentNames.size(); ++c)
+        xml_ += fmt::format(" ComponentName{}=\"{}\"", c, escapedXml(componentNames[c]));
+    xml_ += fmt::format(" format=\"appended\" offset=\"{}\"/>\n", offset_);
     offset_ += sizeof(std::uint64_t) + bytes;
 }
 
@@ -43,7 +46,8 @@ void AppendedHead::declareFields(const std::vector<Field>& fields, Association a
     open(fmt::format("<{}>\n", tag));
     for (const Field& field : fields)
         if (field.association == association)
-            declare("Float64", field.name, field.components, field.values.size() * sizeof(double));
+            declare("Float64", field.name, field.components, field.values.size() * sizeof(double),
+                    field.componentNames);
     open(fmt::format("</{}>\n", tag));
 }
 

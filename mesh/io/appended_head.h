@@ -23,7 +23,8 @@ public:
     explicit AppendedHead(const char* type);
 
     void open(const std::string& text) { xml_ += text; }
-    void declare(const char* type, const std::string& name, int components, std::uint64_t bytes);
+    void declare(const char* type, const std::string& name, int components, std::uint64_t bytes,
+                 const std::vector<std::string>& componentNames = {});
     /// Fields on points or on cells, between the tags that are asked for.
     void declareFields(const std::vector<Field>& fields, Association association);
     std::string finished(const char* type) const;

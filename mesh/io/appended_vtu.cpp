@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstring>
+#include <stdexcept>
+#include <type_traits>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,6 +16,8 @@
 
 #include <mesh/io/appended_data.h>
 #include <mesh/io/bookkeeping_names.h>
+#include <mesh/io/number_text.h>
+#include <mesh/soup/append_soup.h>
 #include <mesh/soup/cell_types.h>
 #include <mesh/tet/huge_pages.h>
 
@@ -78,24 +83,47 @@ bool withType(const std::string& type, const Use& use) {
     return false;
 }
 
+/// The line in which byte `place` of the file stands, from 1.
+std::uint64_t lineOf(int file, std::uint64_t place) {
+    std::vector<char> bytes(1u << 20);
+    std::uint64_t line = 1;
+    for (std::uint64_t at = 0; at < place;) {
+        const ssize_t got =
+            ::pread(file, bytes.data(), std::min<std::uint64_t>(bytes.size(), place - at), static_cast<off_t>(at));
+        if (got <= 0) {
+            break;
+        }
+        line += static_cast<std::uint64_t>(std::count(bytes.data(), bytes.data() + got, '\n'));
+        at += static_cast<std::uint64_t>(got);
+    }
+    return line;
+}
+
+/// What is wrong with a text array.
+class BadText : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Makes a soup of one piece.
 class Assembly {
 public:
-    Assembly(const OpenFile& file, const VtuHead& head) : file_(file), head_(head) {}
+    Assembly(const OpenFile& file, const VtuHead& head, const VtuPiece& piece)
+        : file_(file), head_(head), piece_(piece) {}
 
     std::optional<CellSoup> assemble() {
         // No array is smaller than a 1100th of its bytes, so counts beyond that are damage.
-        if (head_.points / 1100 > file_.size() || head_.cells / 1100 > file_.size() || head_.cells == 0) {
+        if (piece_.points / 1100 > file_.size() || piece_.cells / 1100 > file_.size() || piece_.cells == 0) {
             return std::nullopt;
         }
         onlyTetrahedra_ = hasOnlyTetrahedra();
         if (!isEachOnce()) {
             return std::nullopt;
         }
-        fields_.resize(head_.arrays.size());
+        fields_.resize(piece_.arrays.size());
         std::atomic<bool> good = true;
         // All at once, because to make room for an array is work for one thread.
-        tbb::parallel_for(std::size_t{0}, head_.arrays.size(), [&](std::size_t i) {
-            if (!take(head_.arrays[i], fields_[i])) {
+        tbb::parallel_for(std::size_t{0}, piece_.arrays.size(), [&](std::size_t i) {
+            if (!take(piece_.arrays[i], fields_[i])) {
                 good.store(false, std::memory_order_relaxed);
             }
         });
@@ -111,7 +139,7 @@ private:
     /// Whether there is one array of points and one of each kind for cells, so that no two write to one place.
     bool isEachOnce() const {
         const auto count = [&](VtuArray::Place place, const char* name) {
-            return std::count_if(head_.arrays.begin(), head_.arrays.end(), [&](const VtuArray& array) {
+            return std::count_if(piece_.arrays.begin(), piece_.arrays.end(), [&](const VtuArray& array) {
                 return array.place == place && (name == nullptr || array.name == name);
             });
         };
@@ -121,17 +149,42 @@ private:
     }
 
     bool isWhole() const {
-        const bool cells = onlyTetrahedra_ ? soup_.tetrahedra.size() == head_.cells
-                                           : soup_.types.size() == head_.cells && !soup_.offsets.empty() &&
+        const bool cells = onlyTetrahedra_ ? soup_.tetrahedra.size() == piece_.cells
+                                           : soup_.types.size() == piece_.cells && !soup_.offsets.empty() &&
                                                  soup_.offsets.back() == soup_.connectivity.size();
-        return cells && soup_.points.size() == head_.points;
+        return cells && soup_.points.size() == piece_.points;
+    }
+
+    /// Calls `use(T{})` with the type in which the array's values are read: text is, if not of whole numbers, as doubles.
+    template <class Use>
+    static bool withTypeOf(const VtuArray& array, const Use& use) {
+        return withType(array.form == VtuArray::Form::Text && array.type == "Float32" ? "Float64" : array.type, use);
+    }
+
+    /// \throws BadText if a word of `text` is no number: other readers would stop there without saying which.
+    template <class T>
+    void refuseBadWord(const VtuArray& array, const TextArray<T>& text) const {
+        if (const std::optional<BadWord> bad = text.isSound() ? text.firstBadWord() : std::nullopt) {
+            double value = 0.0;
+            const NumberText kind = std::is_floating_point_v<T> ? parseNumber(bad->word, value) : NumberText::None;
+            const std::string what = fmt::format("a value of '{}'", array.name.empty() ? "Points" : array.name);
+            throw BadText(fmt::format("line {}: {}; {}", lineOf(file_.get(), bad->place),
+                                      complaintOf(bad->word, kind, what), remedyFor(bad->word, kind)));
+        }
     }
 
     /// Calls `use(array)` with the array's values in whatever form they are.
     template <class T, class Use>
     bool withData(const VtuArray& array, const Use& use) const {
         if (array.form == VtuArray::Form::Text) {
-            return use(TextArray<T>(file_.get(), array.start, array.end));
+            if constexpr (!std::is_same_v<T, float>) {
+                const TextArray<T> text(file_.get(), array.start, array.end, array.type == "Float32");
+                if (use(text)) {
+                    return true;
+                }
+                refuseBadWord(array, text);
+            }
+            return false;
         }
         VtuEncoding encoding = head_.encoding;
         const bool appended = array.form == VtuArray::Form::Appended;
@@ -143,14 +196,14 @@ private:
     /// Whether every value of the array of cells called `name` is `wanted(i)`, without keeping it.
     template <class Wanted>
     bool isAlways(const std::string& name, const Wanted& wanted) const {
-        for (const VtuArray& array : head_.arrays) {
+        for (const VtuArray& array : piece_.arrays) {
             if (array.place != VtuArray::Place::Cells || array.name != name) {
                 continue;
             }
-            return withType(array.type, [&](auto zero) {
+            return withTypeOf(array, [&](auto zero) {
                 using T = decltype(zero);
                 return withData<T>(array, [&](const auto& data) {
-                    std::atomic<bool> always = data.isSound() && data.elements() == head_.cells;
+                    std::atomic<bool> always = data.isSound() && data.elements() == piece_.cells;
                     const bool read =
                         always && data.forEachPiece([&](std::uint64_t first, const char* bytes, std::uint64_t count) {
                             bool same = true;
@@ -183,9 +236,9 @@ private:
             case VtuArray::Place::Cells:
                 return takeCells(array);
             case VtuArray::Place::PointData:
-                return takeField(array, Association::Point, head_.points, field.emplace());
+                return takeField(array, Association::Point, piece_.points, field.emplace());
             case VtuArray::Place::CellData:
-                return takeField(array, Association::Cell, head_.cells, field.emplace());
+                return takeField(array, Association::Cell, piece_.cells, field.emplace());
         }
         return false;
     }
@@ -193,7 +246,7 @@ private:
     /// Converts all values of an array by `convert(T value)` into what `makeRoom(count)` points to.
     template <class Out, class MakeRoom, class Convert>
     bool decode(const VtuArray& array, const MakeRoom& makeRoom, const Convert& convert) {
-        return withType(array.type, [&](auto zero) {
+        return withTypeOf(array, [&](auto zero) {
             using T = decltype(zero);
             return withData<T>(array, [&](const auto& data) {
                 Out* const out = data.isSound() ? makeRoom(data.elements()) : nullptr;
@@ -211,10 +264,10 @@ private:
 
     bool takePoints(const VtuArray& array) {
         const auto room = [&](std::uint64_t count) -> double* {
-            if (count != 3 * head_.points || count == 0) {
+            if (count != 3 * piece_.points || count == 0) {
                 return nullptr;
             }
-            resizeInHugePages(soup_.points, head_.points);
+            resizeInHugePages(soup_.points, piece_.points);
             return &soup_.points[0].x;
         };
         return decode<double>(array, room, [](auto value) { return static_cast<double>(value); });
@@ -227,7 +280,7 @@ private:
         if (array.name == "connectivity") {
             const auto room = [&](std::uint64_t count) -> std::uint32_t* {
                 if (onlyTetrahedra_) {
-                    resizeInHugePages(soup_.tetrahedra, count == 4 * head_.cells ? head_.cells : 0);
+                    resizeInHugePages(soup_.tetrahedra, count == 4 * piece_.cells ? piece_.cells : 0);
                     return soup_.tetrahedra.empty() ? nullptr : soup_.tetrahedra[0].data();
                 }
                 resizeInHugePages(soup_.connectivity, count);
@@ -243,19 +296,19 @@ private:
         }
         if (array.name == "offsets") {
             const auto room = [&](std::uint64_t count) -> std::uint64_t* {
-                soup_.offsets.assign(count == head_.cells ? count + 1 : 0, 0);
-                return count == head_.cells ? soup_.offsets.data() + 1 : nullptr;
+                soup_.offsets.assign(count == piece_.cells ? count + 1 : 0, 0);
+                return count == piece_.cells ? soup_.offsets.data() + 1 : nullptr;
             };
             return decode<std::uint64_t>(array, room, [](auto value) { return static_cast<std::uint64_t>(value); });
         }
         const auto room = [&](std::uint64_t count) -> std::uint8_t* {
-            soup_.types.resize(count == head_.cells ? count : 0);
-            return count == head_.cells ? soup_.types.data() : nullptr;
+            soup_.types.resize(count == piece_.cells ? count : 0);
+            return count == piece_.cells ? soup_.types.data() : nullptr;
         };
         return array.name == "types" &&
                decode<std::uint8_t>(array, room,
                                     [](auto value) {
-                                        return value >= 0 && value <= 255 && value != cell_type::polyhedron
+                                        return value >= 0 && value < cell_type::gmshPyramid && value != cell_type::polyhedron
                                                    ? static_cast<std::uint8_t>(value)
                                                    : std::uint8_t{255};
                                     }) &&
@@ -264,7 +317,7 @@ private:
 
     /// Number of the array among those of its place.
     std::ptrdiff_t numberOf(const VtuArray& array) const {
-        return std::count_if(head_.arrays.data(), &array,
+        return std::count_if(piece_.arrays.data(), &array,
                              [&](const VtuArray& earlier) { return earlier.place == array.place; });
     }
 
@@ -276,6 +329,7 @@ private:
         field.name = array.name.empty() ? fmt::format("array {}", numberOf(array)) : array.name;
         field.association = association;
         field.components = array.components;
+        field.componentNames = array.componentNames;
         field.bookkeeping = isBookkeepingName(array.name);
         const std::uint64_t wanted = places * static_cast<std::uint64_t>(array.components);
         const auto room = [&](std::uint64_t count) -> double* {
@@ -287,17 +341,61 @@ private:
 
     const OpenFile& file_;
     const VtuHead& head_;
+    const VtuPiece& piece_;
     CellSoup soup_;
     std::vector<std::optional<Field>> fields_;  ///< for each array
     bool onlyTetrahedra_ = false;
 };
+
+/// Puts the points of Lagrange and Bézier hexahedra from VTK 8's order into that of VTK 9, in which the last two of the
+/// upright edges have changed places.
+void renumberHexahedronsOfVtk8(CellSoup& soup) {
+    for (std::size_t cell = 0; cell < soup.types.size(); ++cell) {
+        const bool curved =
+            soup.types[cell] == cell_type::lagrangeHexahedron || soup.types[cell] == cell_type::bezierHexahedron;
+        if (!curved || soup.offsets[cell] > soup.offsets[cell + 1] ||
+            soup.offsets[cell + 1] > soup.connectivity.size()) {
+            continue;
+        }
+        const std::size_t count = soup.offsets[cell + 1] - soup.offsets[cell];
+        const std::size_t perEdge = static_cast<std::size_t>(std::lround(std::cbrt(static_cast<double>(count))));
+        if (perEdge < 3 || perEdge * perEdge * perEdge != count) {
+            continue;
+        }
+        const std::size_t inner = perEdge - 2;  // points of an edge between its ends
+        std::uint32_t* const third = soup.connectivity.data() + soup.offsets[cell] + 8 + 10 * inner;
+        std::swap_ranges(third, third + inner, third + inner);
+    }
+}
 
 }  // namespace
 
 std::optional<CellSoup> readAppendedVtu(const std::string& path) {
     const OpenFile file(path);
     const std::optional<VtuHead> head = file.size() > 0 ? parseVtuHead(file.get()) : std::nullopt;
-    return head ? Assembly(file, *head).assemble() : std::nullopt;
+    if (!head) {
+        return std::nullopt;
+    }
+    CellSoup whole;
+    for (const VtuPiece& piece : head->pieces) {
+        if (piece.cells == 0 && head->pieces.size() > 1) {
+            continue;
+        }
+        std::optional<CellSoup> soup;
+        try {
+            soup = Assembly(file, *head, piece).assemble();
+        } catch (const BadText& error) {
+            throw std::runtime_error(fmt::format("{}: {}", path, error.what()));
+        }
+        if (!soup) {
+            return std::nullopt;
+        }
+        if (head->hexahedronsOfVtk8) {
+            renumberHexahedronsOfVtk8(*soup);
+        }
+        appendSoup(whole, std::move(*soup));
+    }
+    return whole.cellCount() > 0 ? std::optional(std::move(whole)) : std::nullopt;
 }
 
 }  // namespace tetralux::mesh

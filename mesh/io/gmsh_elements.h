@@ -13,7 +13,8 @@ struct GmshElement {
     std::span<const int> order;  ///< VTK's points as places in Gmsh's list
 };
 
-/// Gmsh's solids of an order above two become linear ones over their corners.
+/// Complete solids of any order, and incomplete (serendipity) ones of order two. What it returns stays valid as long as
+/// the thread.
 GmshElement gmshElement(int gmshType);
 
 }  // namespace tetralux::mesh

@@ -188,7 +188,7 @@ CellSoup readIsolated(const std::string& source, const std::function<CellSoup()>
     }
     const int status = reap(child);
     if (!ended) {
-        refuse(source, "reading took too long; the file is probably damaged: write it again");
+        refuse(source, "reading takes too long; if other programs read it, save it as .vtu there");
     }
     const int outcome = WIFEXITED(status) ? WEXITSTATUS(status) : notWritten;
     if (outcome == outOfMemory) {
@@ -200,7 +200,7 @@ CellSoup readIsolated(const std::string& source, const std::function<CellSoup()>
         refuse(source, readText(result.get()));
     }
     if (outcome != resultWritten) {
-        refuse(source, "the file breaks its reader; it is probably truncated or damaged: write it again");
+        refuse(source, "its reader does not survive it; if other programs read it, save it as .vtu there, else write it again");
     }
     CellSoup soup;
     ::lseek(result.get(), 0, SEEK_SET);

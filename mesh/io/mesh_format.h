@@ -18,10 +18,13 @@ struct MeshFormat {
     CellSoup (*read)(const std::string& source, const ReadOptions& options);
 };
 
+/// The format that accepts `source`; nullptr if none does.
+const MeshFormat* formatOf(const std::string& source);
+
 extern const MeshFormat vtkXmlFormat;
 extern const MeshFormat legacyVtkFormat;
 extern const MeshFormat vtkHdfFormat;
-extern const MeshFormat pvdFormat;
+extern const MeshFormat listingFormat;
 extern const MeshFormat exodusFormat;
 extern const MeshFormat cgnsFormat;
 extern const MeshFormat ensightFormat;

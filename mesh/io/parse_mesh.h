@@ -14,8 +14,7 @@
 
 namespace tetralux::mesh {
 
-/// Gmsh MSH 2.x and 4.1, ascii and binary, with $NodeData and $ElementData at the step nearest to `time`. Cells of an
-/// order above two are taken by their corners.
+/// Gmsh MSH 1.0, 2.x and 4.1, ascii and binary, with $NodeData and $ElementData at the step nearest to `time`.
 CellSoup parseGmsh(std::string_view bytes, const std::string& source, std::optional<double> time);
 
 /// MEDIT .mesh text, versions 1 to 4.

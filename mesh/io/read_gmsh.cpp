@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Gmsh's MSH format as its reference manual describes it (versions 2.2 and 4.1). Gmsh's own library is GPL and would
+/// Gmsh's MSH format as its reference manual describes it (versions 1, 2.2 and 4.1). Gmsh's own library is GPL and would
 /// make the renderer so.
 #include <array>
 #include <cmath>
@@ -55,10 +55,14 @@ public:
 private:
     void parseFormat() {
         if (scan_.peek().starts_with('(')) {
-            scan_.fail("is a mesh of ANSYS Fluent, not of Gmsh; give it the ending .cas");
+            scan_.refuse("is a mesh of ANSYS Fluent, not of Gmsh", "give it the ending .cas");
+        }
+        if (scan_.peek() == "$NOD") {
+            return;  // version 1 has no head
         }
         if (scan_.peek() != "$MeshFormat") {
-            scan_.fail("does not begin with $MeshFormat as a Gmsh mesh does");
+            scan_.refuse("does not begin with $MeshFormat as a Gmsh mesh does",
+                         "check the name's ending or write the file again");
         }
         scan_.word("$MeshFormat");
         const std::string version(scan_.word("the version"));
@@ -97,12 +101,16 @@ private:
             isFour_ ? parseNodes4() : parseNodes2();
         } else if (section == "$Elements") {
             isFour_ ? parseElements4() : parseElements2();
+        } else if (section == "$NOD") {
+            parseNodes2();
+        } else if (section == "$ELM") {
+            parseElements1();
         } else if (section == "$NodeData") {
             parseView(Association::Point);
         } else if (section == "$ElementData") {
             parseView(Association::Cell);
         }
-        endSection("$End" + section.substr(1));
+        endSection((section == "$NOD" || section == "$ELM" ? "$END" : "$End") + section.substr(1));
     }
 
     // One number, in whichever way the file is written. Counts and tags are 4 bytes in version 2 and 8 in version 4.
@@ -173,9 +181,10 @@ private:
 
     /// Takes the nodes of one element. They stay tags until all nodes are known.
     void takeElement(std::int64_t tag, const GmshElement& element, std::int64_t entity, bool wideTags) {
-        std::array<std::int64_t, 125> nodes{};
-        for (std::size_t k = 0; k < static_cast<std::size_t>(element.points); ++k) {
-            nodes[k] = wideTags ? takeSize("a node of an element") : takeInt("a node of an element");
+        std::vector<std::int64_t>& nodes = elementNodes_;
+        nodes.resize(static_cast<std::size_t>(element.points));
+        for (std::int64_t& node : nodes) {
+            node = wideTags ? takeSize("a node of an element") : takeInt("a node of an element");
         }
         if (soup_.offsets.empty()) {
             soup_.offsets.push_back(0);
@@ -193,7 +202,7 @@ private:
         const GmshElement element = gmshElement(type >= 0 && type < 1000 ? static_cast<int>(type) : 0);
         if (element.points == 0) {
             scan_.refuse(fmt::format("has elements of Gmsh's type {}, which is not known", type),
-                         "save it with order 2 or less");
+                         "save it with complete elements of order 10 or less (Mesh.SecondOrderIncomplete = 0)");
         }
         return element;
     }
@@ -237,6 +246,23 @@ private:
                 const std::int64_t entity = takeTags2(tags);
                 takeElement(tag, element, entity, false);
             }
+        }
+    }
+
+    /// Of version 1: number, type, physical group, entity, number of nodes, nodes.
+    void parseElements1() {
+        const std::size_t count = scan_.count("the number of elements", 12);
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::int64_t tag = scan_.integer("the number of an element");
+            const GmshElement element = knownElement(scan_.integer("the type of an element"));
+            const std::int64_t physical = scan_.integer("the physical group of an element");
+            const std::int64_t entity = scan_.integer("the entity of an element");
+            const std::int64_t nodes = scan_.integer("the number of nodes of an element");
+            if (nodes != element.points) {
+                scan_.fail(fmt::format("has an element of {} nodes where its type has {}", nodes, element.points));
+            }
+            physicals_.push_back(static_cast<double>(physical));
+            takeElement(tag, element, entity, false);
         }
     }
 
@@ -289,8 +315,9 @@ private:
                 count = checkedCount(value, "the number of values", 2);
             }
         }
-        if (view.components < 1 || view.components > 9) {
-            scan_.fail(fmt::format("has values of {} components where 1, 3 or 9 are known", view.components));
+        constexpr std::size_t mostComponents = 1000;
+        if (view.components < 1 || view.components > mostComponents) {
+            scan_.fail(fmt::format("has values of {} components", view.components));
         }
         if (binary_) {
             scan_.restOfLine();
@@ -361,6 +388,7 @@ private:
     Numbers pointOf_;
     Numbers cellOf_;
     std::vector<std::int64_t> nodeTags_;  ///< the connectivity until all nodes are known
+    std::vector<std::int64_t> elementNodes_;
     std::vector<double> entities_;
     std::vector<double> physicals_;
     std::vector<View> views_;

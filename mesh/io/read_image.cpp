@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include <fmt/format.h>
 #include <vtkImageData.h>
@@ -63,6 +66,61 @@ std::array<glm::dvec3, 3> metaDirections(const std::string& source) {
     return directions;
 }
 
+/// The files that hold the values of a MetaImage, by its head: one, a list of slices, or a pattern for their numbers.
+/// None if the values stand in the file itself.
+std::vector<std::string> metaFiles(const std::string& source) {
+    std::ifstream file(source, std::ios::binary);
+    std::string line;
+    for (int lines = 0; lines < 100 && std::getline(file, line); ++lines) {
+        if (!line.starts_with("ElementDataFile")) {
+            continue;
+        }
+        std::istringstream words(line.substr(std::min(line.find('=') + 1, line.size())));
+        std::string name;
+        words >> name;
+        std::vector<std::string> names;
+        if (name == "LIST") {
+            for (std::string next; names.size() < 100'000 && std::getline(file, next);) {
+                next.erase(next.find_last_not_of(" \t\r") + 1);
+                if (!next.empty()) {
+                    names.push_back(next);
+                }
+            }
+        } else if (const std::size_t percent = name.find('%'); percent != std::string::npos) {
+            int first = 0;
+            int last = 0;
+            const std::size_t end = name.find('d', percent);
+            if (words >> first >> last && end != std::string::npos) {
+                const std::string format = name.substr(percent + 1, end - percent - 1);
+                const std::size_t width = format.empty() ? 0 : std::strtoul(format.c_str(), nullptr, 10) % 64;
+                for (const int number : {first, last}) {
+                    const std::string digits = format.starts_with('0') ? fmt::format("{:0{}}", number, width)
+                                                                       : fmt::format("{:{}}", number, width);
+                    names.push_back(name.substr(0, percent) + digits + name.substr(end + 1));
+                }
+            }
+        } else if (name != "LOCAL" && name != "Local" && name != "local" && !name.empty()) {
+            std::string rest;
+            std::getline(words, rest);  // names may have spaces
+            rest.erase(rest.find_last_not_of(" \t\r") + 1);
+            names.push_back(name + rest);
+        }
+        return names;
+    }
+    return {};
+}
+
+/// VTK takes half a minute to find out that a slice is not there, and does not say which.
+void checkMetaFiles(const std::string& source) {
+    for (const std::string& name : metaFiles(source)) {
+        std::error_code failed;
+        if (!std::filesystem::is_regular_file(std::filesystem::path(source).parent_path() / name, failed)) {
+            throw std::runtime_error(
+                fmt::format("{}: names {}, which is not there; put it there, or name the file that is", source, name));
+        }
+    }
+}
+
 CellSoup readMetaImage(const std::string& source) {
     vtkNew<vtkMetaImageReader> reader;
     reader->SetFileName(source.c_str());
@@ -87,6 +145,7 @@ CellSoup readImage(const std::string& source, const ReadOptions&) {
     if (hasExtension(source, {".nrrd", ".nhdr"})) {
         return readNrrd(source);
     }
+    checkMetaFiles(source);
     return readIsolated(source, [&] { return readMetaImage(source); });
 }
 

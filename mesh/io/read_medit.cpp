@@ -79,11 +79,11 @@ public:
         const auto code = take<std::int32_t>("the byte order");
         swap_ = code != 1;
         if (swap_ && code != 0x01000000) {
-            fail("does not begin as MEDIT binary does");
+            refuse("does not begin as MEDIT binary does", "check the name's ending or write the file again");
         }
         version_ = take<std::int32_t>("the version");
         if (version_ < 1 || version_ > 4) {
-            fail(fmt::format("has version {}; 1 to 4 can be read", version_));
+            refuse(fmt::format("has version {}; 1 to 4 can be read", version_), "save it as version 2");
         }
     }
 
@@ -121,9 +121,10 @@ public:
     bool atEnd() const { return scan_.remaining() < 4; }
 
     [[noreturn]] void fail(const std::string& what) const {
-        throw std::runtime_error(
-            fmt::format("{}: byte {}: {}; the file is probably truncated or damaged: write it again", source_,
-                        scan_.position(), what));
+        refuse(what, "the file is probably truncated or damaged: write it again");
+    }
+    [[noreturn]] void refuse(const std::string& what, const char* remedy) const {
+        throw std::runtime_error(fmt::format("{}: byte {}: {}; {}", source_, scan_.position(), what, remedy));
     }
 
 private:
@@ -181,7 +182,11 @@ CellSoup readMedit(const std::string& source, const ReadOptions&) {
 CellSoup parseMeditText(std::string_view bytes, const std::string& source) {
     TextScanner scan(bytes, source, '#');
     if (scan.peek() != "MeshVersionFormatted") {
-        scan.fail("does not begin with MeshVersionFormatted as a MEDIT mesh does");
+        const bool isMfem = scan.peek() == "MFEM";
+        scan.refuse(isMfem ? "is a mesh in MFEM's own format, which is not read"
+                           : "does not begin with MeshVersionFormatted as a MEDIT mesh does",
+                    isMfem ? "save it as .vtu or .vtk (Mesh::PrintVTU, Mesh::PrintVTK)"
+                           : "check the name's ending or write the file again");
     }
     CellSoup soup;
     std::vector<double> references;
@@ -217,7 +222,7 @@ CellSoup parseMeditBinary(std::string_view bytes, const std::string& source) {
         const std::int64_t next = scan.takePlace("the end of a section");
         if (keyword == binaryDimension) {
             if (scan.take<std::int32_t>("the dimension") != 3) {
-                scan.fail("is not three-dimensional and holds no solid cells");
+                scan.refuse("is not three-dimensional and holds no solid cells", "give a mesh of dimension 3");
             }
         } else {
             takeBinarySection(scan, keyword, soup, references);
@@ -240,15 +245,17 @@ void parseMeditSolution(std::string_view bytes, const std::string& source, CellS
     }
     const std::size_t vertices = scan.count("the number of vertices", 2);
     if (vertices != soup.points.size()) {
-        scan.fail(fmt::format("has values at {} vertices where the mesh has {}", vertices, soup.points.size()));
+        scan.refuse(fmt::format("has values at {} vertices where the mesh has {}", vertices, soup.points.size()),
+                    "put the .sol of this mesh beside it, or none");
     }
     const std::size_t solutions = scan.count("the number of solutions", 2);
     std::vector<Field> fields;
     for (std::size_t i = 0; i < solutions; ++i) {
         const std::int64_t kind = scan.integer("the kind of a solution");
         if (kind < 1 || kind > 3) {
-            scan.fail(
-                fmt::format("has a solution of kind {} where 1 (scalar), 2 (vector), 3 (tensor) are known", kind));
+            scan.refuse(
+                fmt::format("has a solution of kind {} where 1 (scalar), 2 (vector), 3 (tensor) are known", kind),
+                "write it as one of these");
         }
         Field field;
         field.name = solutions == 1 ? "solution" : fmt::format("solution {}", i + 1);

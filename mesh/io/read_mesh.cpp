@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <mesh/io/read_mesh.h>
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <vector>
@@ -17,7 +18,7 @@ namespace {
 
 // One line per format; the first that accepts a source reads it.
 const std::array formats{
-    &vtkXmlFormat, &legacyVtkFormat, &vtkHdfFormat,   &pvdFormat,   &exodusFormat,
+    &vtkXmlFormat, &legacyVtkFormat, &vtkHdfFormat,   &listingFormat,   &exodusFormat,
     &cgnsFormat,   &ensightFormat,   &openFoamFormat, &ucdFormat,   &fluentFormat,
     &imageFormat,  &rawFormat,       &gmshFormat,     &meditFormat, &tetgenFormat,
 };
@@ -75,14 +76,18 @@ ReadResult readFile(const MeshFormat& format, const std::string& source, const R
 
 }  // namespace
 
+const MeshFormat* formatOf(const std::string& source) {
+    const auto found =
+        std::find_if(formats.begin(), formats.end(), [&](const MeshFormat* f) { return f->accepts(source); });
+    return found != formats.end() ? *found : nullptr;
+}
+
 ReadResult readMesh(const std::string& source, const ReadOptions& options) {
     if (const auto generated = parseProceduralSource(source)) {
         return generate(*generated);
     }
-    for (const MeshFormat* format : formats) {
-        if (format->accepts(source)) {
-            return readFile(*format, source, options);
-        }
+    if (const MeshFormat* const format = formatOf(source)) {
+        return readFile(*format, source, options);
     }
     checkReadable(source);
     for (const OtherKind& kind : otherKinds) {

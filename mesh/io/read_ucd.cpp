@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -10,6 +11,8 @@
 #include <mesh/io/file_checks.h>
 #include <mesh/io/isolated_read.h>
 #include <mesh/io/mesh_format.h>
+#include <mesh/io/plain_numbers.h>
+#include <mesh/io/text_scanner.h>
 #include <mesh/io/vtk_soup.h>
 
 namespace tetralux::mesh {
@@ -35,9 +38,20 @@ CellSoup readUcd(const std::string& source, const ReadOptions& options) {
     checkReadable(source);
     refuseAbaqus(source);
     return readIsolated(source, [&] {
+        const std::string text = readWholeFile(source);
+        const bool isText = text.find('\0') == std::string::npos;
+        const std::optional<PlainText> plain = isText ? withPlainNumbers(text, {}) : std::nullopt;
+        std::optional<MemoryFile> copy;
+        if (plain) {
+            copy.emplace(plain->text);
+        }
         vtkNew<vtkAVSucdReader> reader;
-        reader->SetFileName(source.c_str());
-        return soupFromReader(*reader, options.time);
+        reader->SetFileName(copy ? copy->path().c_str() : source.c_str());
+        CellSoup soup = soupFromReader(*reader, options.time);
+        if (plain) {
+            restoreNotFinite(soup);
+        }
+        return soup;
     });
 }
 

@@ -55,18 +55,36 @@ bool readArray(int file, Array& array) {
     return readAll(file, array.data(), count * sizeof(array[0]));
 }
 
+bool writeStrings(int file, const std::vector<std::string>& strings) {
+    const std::uint64_t count = strings.size();
+    return writeAll(file, &count, sizeof count) &&
+           std::all_of(strings.begin(), strings.end(),
+                       [file](const std::string& text) { return writeArray(file, text); });
+}
+
+bool readStrings(int file, std::vector<std::string>& strings) {
+    std::uint64_t count = 0;
+    bool good = readAll(file, &count, sizeof count);
+    for (std::uint64_t i = 0; good && i < count; ++i) {
+        good = readArray(file, strings.emplace_back());
+    }
+    return good;
+}
+
 }  // namespace
 
 bool writeSoup(int file, const CellSoup& soup) {
     bool good = writeArray(file, soup.points) && writeArray(file, soup.types) && writeArray(file, soup.offsets) &&
                 writeArray(file, soup.connectivity) && writeArray(file, soup.faceOffsets) &&
-                writeArray(file, soup.faceStream) && writeArray(file, soup.hidden) && writeArray(file, soup.times);
+                writeArray(file, soup.faceStream) && writeArray(file, soup.hidden) && writeArray(file, soup.times) &&
+                writeArray(file, soup.tetrahedra) && writeStrings(file, soup.notes);
     const std::uint64_t fields = soup.fields.size();
     good = good && writeAll(file, &fields, sizeof fields);
     for (const Field& field : soup.fields) {
         good = good && writeArray(file, field.name) && writeAll(file, &field.association, sizeof field.association) &&
                writeAll(file, &field.components, sizeof field.components) &&
-               writeAll(file, &field.bookkeeping, sizeof field.bookkeeping) && writeArray(file, field.values);
+               writeAll(file, &field.bookkeeping, sizeof field.bookkeeping) && writeArray(file, field.values) &&
+               writeStrings(file, field.componentNames);
     }
     return good;
 }
@@ -76,12 +94,14 @@ bool readSoup(int file, CellSoup& soup) {
     bool good = readArray(file, soup.points) && readArray(file, soup.types) && readArray(file, soup.offsets) &&
                 readArray(file, soup.connectivity) && readArray(file, soup.faceOffsets) &&
                 readArray(file, soup.faceStream) && readArray(file, soup.hidden) && readArray(file, soup.times) &&
+                readArray(file, soup.tetrahedra) && readStrings(file, soup.notes) &&
                 readAll(file, &fields, sizeof fields);
     for (std::uint64_t i = 0; good && i < fields; ++i) {
         Field field;
         good = readArray(file, field.name) && readAll(file, &field.association, sizeof field.association) &&
                readAll(file, &field.components, sizeof field.components) &&
-               readAll(file, &field.bookkeeping, sizeof field.bookkeeping) && readArray(file, field.values);
+               readAll(file, &field.bookkeeping, sizeof field.bookkeeping) && readArray(file, field.values) &&
+               readStrings(file, field.componentNames);
         soup.fields.push_back(std::move(field));
     }
     return good;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -11,21 +10,13 @@
 #include <fmt/format.h>
 
 #include <mesh/io/file_checks.h>
+#include <mesh/io/number_text.h>
 
 namespace tetralux::mesh {
 namespace {
 
 bool isSpace(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v';
-}
-
-/// A word of unknown content as it can stand in one line of error text.
-std::string shown(std::string_view word) {
-    std::string text;
-    for (const char c : word.substr(0, 30)) {
-        text += c >= ' ' && c <= '~' ? c : '?';
-    }
-    return text;
 }
 
 }  // namespace
@@ -73,27 +64,23 @@ std::string_view TextScanner::word(const char* what) {
 }
 
 double TextScanner::number(const char* what) {
-    std::string_view text = word(what);
-    if (text.front() == '+') {
-        text.remove_prefix(1);
-    }
+    const std::string_view text = word(what);
     double value = 0.0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error == std::errc::result_out_of_range) {
-        return std::abs(value) > 1.0 ? value : 0.0;
-    }
-    if (error != std::errc() || stop != text.data() + text.size()) {
-        fail(fmt::format("'{}' stands where {} should", shown(text), what));
+    if (const NumberText kind = parseNumber(text, value); kind != NumberText::Good) {
+        at_ -= text.size();  // the line is that of the word
+        refuse(complaintOf(text, kind, what), remedyFor(text, kind));
     }
     return value;
 }
 
 std::int64_t TextScanner::integer(const char* what) {
     const std::string_view text = word(what);
+    const std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
     std::int64_t value = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || stop != text.data() + text.size()) {
-        fail(fmt::format("'{}' stands where {} should", shown(text), what));
+    const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc() || stop != digits.data() + digits.size()) {
+        at_ -= text.size();
+        refuse(fmt::format("'{}' stands where {} should", shownWord(text), what), "write a whole number there");
     }
     return value;
 }

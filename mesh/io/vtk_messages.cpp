@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <vtkAlgorithm.h>
@@ -13,6 +12,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 
+#include <mesh/io/nearest_time.h>
 #include <mesh/io/vtk_soup.h>
 
 namespace tetralux::mesh {
@@ -74,7 +74,12 @@ const char* remedyFor(std::string_view message) {
         says("cannot read data from file")) {
         return "a file that it names is missing or damaged: put it in its place";
     }
-    return "it is probably truncated or damaged: write it again";
+    for (const std::string_view end : {"too short", "remature", "nd of file", "runcated", "not enough", "unexpected end"}) {
+        if (says(end)) {
+            return "it is probably truncated or damaged: write it again";
+        }
+    }
+    return "if other programs read it, save it as .vtu there, else write it again";
 }
 
 }  // namespace
@@ -89,12 +94,6 @@ void throwOnVtkError() {
         const std::string message = plainMessage(window->firstError);
         throw std::runtime_error(fmt::format("cannot be read ({}); {}", message, remedyFor(message)));
     }
-}
-
-double nearestTime(const std::vector<double>& times, std::optional<double> wanted) {
-    return wanted ? *std::min_element(times.begin(), times.end(),
-                                      [&](double a, double b) { return std::abs(a - *wanted) < std::abs(b - *wanted); })
-                  : times.front();
 }
 
 CellSoup soupFromReader(vtkAlgorithm& reader, std::optional<double> time) {

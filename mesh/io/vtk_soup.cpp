@@ -25,6 +25,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <mesh/io/bookkeeping_names.h>
+#include <mesh/soup/append_soup.h>
 #include <mesh/soup/cell_types.h>
 #include <mesh/soup/grid_soup.h>
 
@@ -76,6 +77,8 @@ void takeConnectivity(vtkUnstructuredGrid* grid, CellSoup& soup) {
     }
     const unsigned char* types = grid->GetCellTypesArray()->GetPointer(0);
     soup.types.assign(types, types + cells);
+    const auto isOurOwn = [](std::uint8_t type) { return type >= cell_type::gmshPyramid; };
+    std::replace_if(soup.types.begin(), soup.types.end(), isOurOwn, std::uint8_t{255});
     withValues(grid->GetCells()->GetOffsetsArray(), [&](const auto* values, std::size_t count) {
         soup.offsets.resize(count);
         for (std::size_t i = 0; i < count; ++i) {
@@ -147,6 +150,10 @@ void takeFields(vtkDataSetAttributes* attributes, Association association, std::
                 field.values[k] = static_cast<double>(values[k]);
             }
         });
+        for (int c = 0; array->HasAComponentName() && c < field.components; ++c) {
+            const char* const name = array->GetComponentName(c);
+            field.componentNames.emplace_back(name != nullptr ? name : std::to_string(c));
+        }
         field.bookkeeping = isBookkeeping(attributes, i, field.name);
         soup.fields.push_back(std::move(field));
     }

@@ -5,7 +5,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <mesh/soup/cell_soup.h>
 
@@ -24,16 +23,10 @@ CellSoup soupFromVtk(vtkDataObject* data);
 /// std::runtime_error with the reader's first error message and a remedy, without the name of the file.
 CellSoup soupFromReader(vtkAlgorithm& reader, std::optional<double> time);
 
-/// The one of `times` nearest to `wanted`, the first if nothing is wanted. `times` must not be empty.
-double nearestTime(const std::vector<double>& times, std::optional<double> wanted);
-
 /// From now on VTK prints nothing and `throwOnVtkError` knows its messages.
 void captureVtkMessages();
 
 /// \throws std::runtime_error if VTK reported an error since `captureVtkMessages`.
 void throwOnVtkError();
-
-/// Appends `other` to `soup`. A field that only one of them has is NaN in the other.
-void appendSoup(CellSoup& soup, CellSoup&& other);
 
 }  // namespace tetralux::mesh

@@ -17,6 +17,7 @@ struct VtuArray {
     Place place = Place::Points;
     Form form = Form::Appended;
     int components = 1;
+    std::vector<std::string> componentNames;  ///< empty, or one for each component
     std::uint64_t start = 0;  ///< of the data: in bytes from the start of the appended part, else of the file
     std::uint64_t end = 0;    ///< of the element, in bytes from the start of the file; not if appended
 };
@@ -29,12 +30,18 @@ struct VtuEncoding {
     bool base64 = false;
 };
 
-/// What the XML of a .vtu file with one piece says.
-struct VtuHead {
+/// One of the parts that a mesh stands in, each with points, cells and arrays of its own.
+struct VtuPiece {
     std::uint64_t points = 0, cells = 0;
-    VtuEncoding encoding;         ///< base64: of appended arrays; those at their place always are
-    std::uint64_t dataStart = 0;  ///< of the appended part, in bytes from the start of the file
     std::vector<VtuArray> arrays;
+};
+
+/// What the XML of a .vtu file says.
+struct VtuHead {
+    VtuEncoding encoding;  ///< base64: of appended arrays; those at their place always are
+    bool hexahedronsOfVtk8 = false;  ///< Lagrange and Bézier ones have their points in the order that VTK had before 9
+    std::uint64_t dataStart = 0;  ///< of the appended part, in bytes from the start of the file
+    std::vector<VtuPiece> pieces;  ///< at least one
 };
 
 /// The head of an open file, if it is of the plain kind described above in this machine's byte order; nothing for any

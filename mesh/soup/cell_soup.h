@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -33,6 +34,7 @@ struct CellSoup {
     std::vector<Field> fields;
     std::vector<std::uint8_t> hidden;  ///< 1 for a ghost or blanked cell; empty when there is none
     std::vector<double> times;         ///< of all steps, if the source is a series; the cells are those of one
+    std::vector<std::string> notes;    ///< what the reader chose or left out that its user should know, a line each
 
     static constexpr std::uint32_t invalidPoint = 0xffffffffu;
     std::size_t cellCount() const { return tetrahedra.empty() ? types.size() : tetrahedra.size(); }

@@ -133,6 +133,8 @@ CellTypeInfo cellTypeInfo(std::uint8_t type) {
             return {"Lagrange wedge", 3, 0, false, Shape::Wedge};
         case lagrangePyramid:
             return {"Lagrange pyramid", 3, 0, false, Shape::Pyramid};
+        case gmshPyramid:
+            return {"curved pyramid", 3, 0, false, Shape::Pyramid};
         case bezierTetrahedron:
             return {"Bézier tetrahedron", 3, 0, false, Shape::Tet};
         case bezierHexahedron:

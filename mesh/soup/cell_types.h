@@ -19,6 +19,8 @@ inline constexpr std::uint8_t biquadraticQuadraticWedge = 32, biquadraticQuadrat
 inline constexpr std::uint8_t triquadraticPyramid = 37;
 inline constexpr std::uint8_t lagrangeTetrahedron = 71, lagrangeHexahedron = 72, lagrangeWedge = 73,
                               lagrangePyramid = 74;
+/// No type of VTK's, which has no pyramids of any order: complete ones with their points in Gmsh's sequence.
+inline constexpr std::uint8_t gmshPyramid = 200;
 inline constexpr std::uint8_t bezierTetrahedron = 78, bezierHexahedron = 79, bezierWedge = 80, bezierPyramid = 81;
 }  // namespace cell_type
 

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include <mesh/soup/cell_types.h>
+#include <mesh/soup/gmsh_lattice.h>
 #include <mesh/soup/lagrange_points.h>
+#include <mesh/soup/pyramid_basis.h>
 #include <mesh/soup/quadratic_functions.h>
 
 namespace tetralux::mesh {
@@ -102,6 +104,10 @@ std::optional<int> curvedCellOrder(std::uint8_t type, std::size_t pointCount) {
     if (info.pointCount != 0) {
         return pointCount == static_cast<std::size_t>(info.pointCount) ? std::optional<int>(2) : std::nullopt;
     }
+    if (type == cell_type::gmshPyramid) {
+        const int order = orderOfElement(Shape::Pyramid, pointCount);
+        return order > 0 ? std::optional(order) : std::nullopt;
+    }
     for (std::size_t p = 1; p <= highestOrder; ++p) {
         if (pointsOfOrder(info.shape, p) == pointCount) {
             return static_cast<int>(p);
@@ -124,6 +130,9 @@ std::vector<std::array<double, 3>> curvedCellPoints(std::uint8_t type, std::size
 
 std::vector<std::vector<double>> shapeFunctions(std::uint8_t type, std::size_t pointCount,
                                                 const std::vector<std::array<double, 3>>& places) {
+    if (type == cell_type::gmshPyramid) {
+        return pyramidShapeFunctions(orderOfElement(Shape::Pyramid, pointCount), places);
+    }
     std::vector<std::vector<double>> weights;
     if (const QuadraticCell* const own = quadraticCell(type, pointCount)) {
         for (const Place& place : places) {

@@ -113,6 +113,26 @@ CellVerdict classifyCell(const CellSoup& soup, std::size_t cell) {
     return checkPoints(soup, points);
 }
 
+/// The type of the same shape as `type` that has `points` points; `type` itself if there is none.
+std::uint8_t typeOfShape(std::uint8_t type, std::size_t points) {
+    using namespace cell_type;
+    const CellTypeInfo info = cellTypeInfo(type);
+    if (info.shape == Shape::None || info.pointCount == 0 || type == voxel ||
+        static_cast<std::size_t>(info.pointCount) == points) {
+        return type;
+    }
+    for (const std::uint8_t other :
+         {tetrahedron, hexahedron, wedge, pyramid, quadraticTetrahedron, quadraticHexahedron, quadraticWedge,
+          quadraticPyramid, triquadraticHexahedron, biquadraticQuadraticHexahedron, quadraticLinearWedge,
+          biquadraticQuadraticWedge, triquadraticPyramid}) {
+        const CellTypeInfo candidate = cellTypeInfo(other);
+        if (candidate.shape == info.shape && static_cast<std::size_t>(candidate.pointCount) == points) {
+            return other;
+        }
+    }
+    return type;
+}
+
 void reportTypes(const std::vector<std::uint8_t>& types, MeshReport& report) {
     std::array<std::uint64_t, 256> counts{};
     for (const std::uint8_t type : types) {
@@ -173,6 +193,12 @@ void reportVerdicts(const TypeOf& typeOf, const std::vector<CellVerdict>& verdic
 void checkFields(const CellSoup& soup) {
     for (const Field& field : soup.fields) {
         const std::size_t places = field.association == Association::Point ? soup.points.size() : soup.cellCount();
+        const std::size_t names = field.componentNames.size();
+        if (names != 0 && names != static_cast<std::size_t>(field.components)) {
+            throw std::runtime_error(
+                fmt::format("field '{}' has {} components with {} names; this is a fault of the reader, please report it",
+                            field.name, field.components, names));
+        }
         if (field.components < 1 || field.values.size() != places * static_cast<std::size_t>(field.components)) {
             throw std::runtime_error(
                 fmt::format("field '{}' has {} values for {} {} of {} components; write the file again", field.name,
@@ -201,6 +227,13 @@ void checkStructure(const CellSoup& soup) {
         throw std::runtime_error("its ghost flags are not one per cell; write the file again");
     }
     checkFields(soup);
+}
+
+void correctTypes(CellSoup& soup) {
+    for (std::size_t cell = 0; cell < soup.types.size(); ++cell) {
+        soup.types[cell] =
+            typeOfShape(soup.types[cell], static_cast<std::size_t>(soup.offsets[cell + 1] - soup.offsets[cell]));
+    }
 }
 
 std::vector<CellVerdict> classifyCells(const CellSoup& soup) {

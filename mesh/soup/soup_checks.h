@@ -32,6 +32,10 @@ inline bool isKept(CellVerdict verdict) {
 /// \throws std::runtime_error saying which does not.
 void checkStructure(const CellSoup& soup);
 
+/// Gives each cell that has the number of points of another type of its shape that type: some writers say hexahedron
+/// (12) of one with 20 points. Needs `checkStructure`.
+void correctTypes(CellSoup& soup);
+
 /// A verdict for each cell from its type and point numbers, and for all but tetrahedra from its positions (not yet
 /// Inverted, Folded or Flat), in parallel. Needs `checkStructure`.
 std::vector<CellVerdict> classifyCells(const CellSoup& soup);

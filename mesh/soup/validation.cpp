@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <mesh/soup/append_soup.h>
 #include <mesh/soup/cell_decomposition.h>
 #include <mesh/soup/cell_types.h>
 #include <mesh/soup/merge_points.h>
@@ -167,14 +168,6 @@ void preferTetrahedra(CellSoup& soup) {
     soup.connectivity = {};
 }
 
-/// The other way round, for what needs the general form.
-void preferGeneralCells(CellSoup& soup) {
-    for (const Tetrahedron& cell : soup.tetrahedra) {
-        appendCell(soup, cell_type::tetrahedron, cell);
-    }
-    soup.tetrahedra = {};
-}
-
 /// `decompose` for a soup that holds just tetrahedra.
 Decomposition decomposeTetrahedra(CellSoup& soup, const ReadOptions& options, MeshReport& report) {
     const Representatives representatives = findCoincidentPoints(soup, options.mergeTolerance, report);
@@ -222,8 +215,10 @@ Decomposition decompose(CellSoup& soup, const ReadOptions& options, MeshReport& 
 
 ReadResult tetMeshFromSoup(CellSoup soup, const ReadOptions& options) {
     checkStructure(soup);
+    correctTypes(soup);
     ReadResult result;
     result.times = std::move(soup.times);
+    result.report.notes = std::move(soup.notes);
     const std::size_t sourcePoints = soup.points.size();
     Decomposition decomposition = decompose(soup, options, result.report);
     // The common case, a sound mesh of tetrahedra, is spared the search.

@@ -16,6 +16,8 @@ struct Field {
     int components = 1;          ///< values per point or cell; 3 for a vector
     std::vector<double> values;  ///< components × (points or cells), components fastest
     bool bookkeeping = false;    ///< numbers of points, cells or blocks: shown only when asked for by name
+    /// As the file calls them, "xx"; empty, or one for each component.
+    std::vector<std::string> componentNames = {};
 };
 
 }  // namespace tetralux::mesh

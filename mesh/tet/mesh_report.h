@@ -43,6 +43,7 @@ struct MeshReport {
     std::map<Defect, DefectCount> defects;
     std::uint64_t pointsMerged = 0;                ///< points that an equal one stands for
     std::uint64_t facesFitted = 0;                 ///< quadrilaterals cut as two triangles on their other side are
+    std::vector<std::string> notes;                ///< what the reader chose or left out, a line each
     std::map<std::string, std::uint64_t> skipped;  ///< tetrahedra (or source cells) left out, by reason
 
     void add(Defect defect, std::uint64_t where);

@@ -75,6 +75,7 @@ FieldStatistics fieldStatistics(const Field& field) {
     result.name = field.name;
     result.association = field.association;
     result.components = field.components;
+    result.componentNames = field.componentNames;
     result.bookkeeping = field.bookkeeping;
     result.values = field.values.size() / static_cast<std::size_t>(field.components);
     Histogram found = makeHistogram(result.values, [&](std::size_t place) { return magnitudeAt(field, place); });

@@ -28,6 +28,7 @@ struct FieldStatistics {
     std::string name;
     Association association = Association::Point;
     int components = 1;
+    std::vector<std::string> componentNames;  ///< as the file calls them; empty if it does not
     bool bookkeeping = false;
     double low = 0.0, high = 0.0, mean = 0.0;  ///< of the finite values; zeros if there is none
     std::uint64_t values = 0;                  ///< points or cells

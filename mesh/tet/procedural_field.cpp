@@ -238,7 +238,9 @@ TetMesh sampleOnGrid(const ProceduralField& field, int n) {
     TetMesh mesh;
     mesh.positions.resize(edge * edge * edge);
     mesh.cells.resize(5 * (edge - 1) * (edge - 1) * (edge - 1));
-    Field scalars{field.fieldName, Association::Point, 1, std::vector<double>(mesh.positions.size())};
+    Field scalars;
+    scalars.name = field.fieldName;
+    scalars.values.resize(mesh.positions.size());
     tbb::parallel_for(0, n, [&](int k) {
         std::size_t point = edge * edge * static_cast<std::size_t>(k);
         for (int j = 0; j < n; ++j) {

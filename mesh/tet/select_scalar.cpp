@@ -9,6 +9,8 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -27,76 +29,140 @@ struct Choice {
     int component = magnitude;  ///< or the component taken
 };
 
+const char* placeName(Association association) {
+    return association == Association::Point ? "points" : "cells";
+}
+
+std::string componentName(const Field& field, int component) {
+    if (!field.componentNames.empty()) {
+        return field.componentNames[static_cast<std::size_t>(component)];
+    }
+    return field.components <= 3 ? std::string(1, "xyz"[component]) : std::to_string(component);
+}
+
 std::string listOfFields(const TetMesh& mesh) {
     std::string list;
     for (const Field& field : mesh.fields) {
-        const char* where = field.association == Association::Point ? "points" : "cells";
         const std::string shape = field.components == 1 ? "" : fmt::format(", {} components", field.components);
-        list += fmt::format("{}'{}' ({}{})", list.empty() ? "" : ", ", field.name, where, shape);
+        list += fmt::format("{}'{}' ({}{})", list.empty() ? "" : ", ", field.name, placeName(field.association), shape);
     }
     return list;
 }
 
-/// Position of the field called `name`, point fields first; fields.size() if there is none.
-std::size_t findField(const std::vector<Field>& fields, const std::string& name) {
+/// Position of the field called `name` on `association`; fields.size() if there is none.
+std::size_t findFieldOn(const std::vector<Field>& fields, std::string_view name, Association association) {
+    const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) {
+        return field.association == association && field.name == name;
+    });
+    return static_cast<std::size_t>(found - fields.begin());
+}
+
+/// Position of the field called `name`, point fields first, or of the one that "name@points" or "name@cells" means;
+/// fields.size() if there is none.
+std::size_t findField(const std::vector<Field>& fields, std::string_view name) {
+    for (const Association association : {Association::Point, Association::Cell}) {
+        if (const std::size_t found = findFieldOn(fields, name, association); found < fields.size()) {
+            return found;
+        }
+    }
+    const std::size_t at = name.rfind('@');
+    for (const Association association : {Association::Point, Association::Cell}) {
+        if (at != std::string_view::npos && name.substr(at + 1) == placeName(association)) {
+            return findFieldOn(fields, name.substr(0, at), association);
+        }
+    }
+    return fields.size();
+}
+
+/// Scaling overflows just beyond `largestScalar` (not before 1.7e280).
+double finiteIfDrawable(double value) {
+    constexpr double scale = 1e28;
+    return value * scale;
+}
+
+/// Whether some cell has all its values.
+bool isOnSomeCell(const TetMesh& mesh, const Field& field) {
+    const std::size_t components = static_cast<std::size_t>(field.components);
+    const auto isThere = [&](std::size_t place) {
+        const double* const value = field.values.data() + place * components;
+        return std::all_of(value, value + components, [](double v) { return std::isfinite(finiteIfDrawable(v)); });
+    };
+    for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
+        const Tetrahedron& t = mesh.cells[cell];
+        if (field.association == Association::Cell ? isThere(cell) : std::all_of(t.begin(), t.end(), isThere)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// The first point field, else the first cell field, that is not mere numbers of points or cells and has a value on
+/// some cell, be that one that no cell has a value of; fields.size() if there is none at all.
+std::size_t firstField(const TetMesh& mesh) {
+    const std::vector<Field>& fields = mesh.fields;
+    std::size_t withoutValue = fields.size();
     for (const Association association : {Association::Point, Association::Cell}) {
         for (std::size_t i = 0; i < fields.size(); ++i) {
-            if (fields[i].association == association && fields[i].name == name) {
+            if (fields[i].association != association || fields[i].bookkeeping) {
+                continue;
+            }
+            if (isOnSomeCell(mesh, fields[i])) {
                 return i;
             }
+            withoutValue = std::min(withoutValue, i);
         }
     }
-    return fields.size();
+    return withoutValue;
 }
 
-/// The first point field, else the first cell field, that is not mere numbers of points or cells; fields.size() if
-/// there is none.
-std::size_t firstField(const std::vector<Field>& fields) {
-    for (const Association association : {Association::Point, Association::Cell}) {
-        const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) {
-            return field.association == association && !field.bookkeeping;
-        });
-        if (found != fields.end()) {
-            return static_cast<std::size_t>(found - fields.begin());
-        }
-    }
-    return fields.size();
-}
-
-/// "0", "1", … or "x", "y", "z" as a component number; nothing that is no such name.
-std::optional<int> parseComponent(const std::string& text) {
-    if (text.size() == 1 && text[0] >= 'x' && text[0] <= 'z') {
-        return text[0] - 'x';
+/// A component by its name, else by its number ("0", "1", …) or as "x", "y", "z"; nothing that is no such name.
+std::optional<int> findComponent(const Field& field, std::string_view text) {
+    const auto named = std::find(field.componentNames.begin(), field.componentNames.end(), text);
+    if (named != field.componentNames.end()) {
+        return static_cast<int>(named - field.componentNames.begin());
     }
     int component = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), component);
-    if (error != std::errc() || stop != text.data() + text.size() || component < 0) {
+    if (text.size() == 1 && text[0] >= 'x' && text[0] <= 'z') {
+        component = text[0] - 'x';
+    } else if (error != std::errc() || stop != text.data() + text.size()) {
         return std::nullopt;
     }
-    return component;
+    return component >= 0 && component < field.components ? std::optional(component) : std::nullopt;
 }
 
-/// The whole of `name` is tried first, so that a field whose name has a colon can be chosen.
+std::string listOfComponents(const Field& field) {
+    std::string list = fmt::format("{} (0 to {}", field.components, field.components - 1);
+    for (const std::string& name : field.componentNames) {
+        list += ", " + name;
+    }
+    return list + ")";
+}
+
+/// The whole of `name` is tried first and then each colon from the right, so that names may have colons.
 Choice chooseField(const TetMesh& mesh, const std::string& name) {
     if (name.empty()) {
-        return {firstField(mesh.fields), magnitude};
+        return {firstField(mesh), magnitude};
     }
     if (const std::size_t whole = findField(mesh.fields, name); whole < mesh.fields.size()) {
         return {whole, magnitude};
     }
-    if (const std::size_t colon = name.rfind(':'); colon != std::string::npos) {
-        const std::size_t found = findField(mesh.fields, name.substr(0, colon));
-        const std::optional<int> component = parseComponent(name.substr(colon + 1));
-        if (found < mesh.fields.size()) {
-            const Field& field = mesh.fields[found];
-            if (component && *component < field.components) {
-                return {found, *component};
-            }
-            throw std::runtime_error(fmt::format("field '{}' has no component '{}'; it has {} (0 to {})", field.name,
-                                                 name.substr(colon + 1), field.components, field.components - 1));
+    const std::string_view text = name;
+    std::string refusal = fmt::format("no field named '{}'; the mesh has {}", name, listOfFields(mesh));
+    for (std::size_t colon = text.rfind(':'); colon != std::string_view::npos && colon > 0;
+         colon = text.rfind(':', colon - 1)) {
+        const std::size_t found = findField(mesh.fields, text.substr(0, colon));
+        if (found == mesh.fields.size()) {
+            continue;
         }
+        const Field& field = mesh.fields[found];
+        if (const std::optional<int> component = findComponent(field, text.substr(colon + 1))) {
+            return {found, *component};
+        }
+        refusal = fmt::format("field '{}' has no component '{}'; it has {}", field.name, text.substr(colon + 1),
+                              listOfComponents(field));
     }
-    throw std::runtime_error(fmt::format("no field named '{}'; the mesh has {}", name, listOfFields(mesh)));
+    throw std::runtime_error(refusal);
 }
 
 /// Euclidean norm that neither overflows nor vanishes where the result is representable.
@@ -160,14 +226,7 @@ std::string fieldTitle(const Field& field, int component) {
     if (component == magnitude) {
         return field.name + " (magnitude)";
     }
-    return field.components <= 3 ? fmt::format("{} ({})", field.name, "xyz"[component])
-                                 : fmt::format("{} ({})", field.name, component);
-}
-
-/// Scaling overflows just beyond `largestScalar` (not before 1.7e280).
-double finiteIfDrawable(double value) {
-    constexpr double scale = 1e28;
-    return value * scale;
+    return fmt::format("{} ({})", field.name, componentName(field, component));
 }
 
 bool hasFiniteScalars(const ScalarMesh& mesh, std::size_t cell) {
@@ -251,7 +310,7 @@ void findRangeAndBounds(ScalarMesh& mesh, bool allPointsUsed) {
 }  // namespace
 
 ScalarSelection selectScalar(TetMesh&& mesh, const std::string& name, MeshReport& report) {
-    const std::size_t found = name.empty() ? firstField(mesh.fields) : findField(mesh.fields, name);
+    const std::size_t found = name.empty() ? firstField(mesh) : findField(mesh.fields, name);
     if (found == mesh.fields.size() && (name.empty() || isCoordinateName(name))) {
         addCoordinateField(mesh, name);
     }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -137,6 +140,76 @@ TEST(ParaViewColorMap, StepsBecomeJumps) {
         R"([{"ColorSpace": "Step", "RGBPoints": [0, 1, 0, 0, 1, 0, 1, 0, 2, 0, 0, 1]}])", "map.json");
     EXPECT_EQ(function.colorAt(0.5), glm::dvec3(0, 1, 0));
     EXPECT_EQ(function.colorAt(1.5), glm::dvec3(0, 0, 1));
+}
+
+/// Linear in the logarithm, colours and opacity, to within 1/1024 of a channel and of the largest opacity.
+TEST(ParaViewColorMap, LogarithmicScale) {
+    const TransferFunction function = parseTransferFunction(
+        R"([{"ColorSpace": "RGB", "RGBPoints": [0.001, 0, 0, 1, 1, 0, 1, 0, 1000.0, 1, 0, 0], "UseLogScale": 1,
+             "Points": [0.001, 0, 0.5, 0, 10, 0.8, 0.5, 0, 10, 0.2, 0.5, 0, 1000, 1, 0.5, 0]}])",
+        "map.json");
+    const double unit = 50.0;  // extinction per extent of opacity 1
+    for (int i = 0; i <= 6000; ++i) {
+        const double decade = -3.0 + i * 1e-3, s = std::pow(10.0, decade);
+        const double up = std::clamp(decade / 3.0, 0.0, 1.0), down = std::clamp(-decade / 3.0, 0.0, 1.0);
+        expectNear(function.colorAt(s), {up, 1.0 - up - down, down}, 1.0 / 1024.0, "at " + std::to_string(s));
+        const double opacity = decade < 1.0 ? 0.8 * (decade + 3.0) / 4.0 : 0.2 + 0.8 * (decade - 1.0) / 2.0;
+        if (std::abs(decade - 1.0) > 1e-9) EXPECT_NEAR(function.extinctionAt(s), unit * opacity, unit / 1024.0) << s;
+    }
+    // What the map names is met exactly, a jump from above.
+    EXPECT_EQ(function.colorAt(1.0), glm::dvec3(0, 1, 0));
+    EXPECT_EQ(function.colorAt(1000.0), glm::dvec3(1, 0, 0));
+    EXPECT_EQ(function.extinctionAt(10.0), unit * 0.2);
+    EXPECT_LT(function.color.size(), 100u);
+    try {
+        parseTransferFunction(R"([{"RGBPoints": [0, 0, 0, 1, 1, 0, 1, 0], "UseLogScale": 1}])", "map.json");
+        ADD_FAILURE();
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("UseLogScale needs points above 0"), std::string::npos)
+            << error.what();
+    }
+}
+
+TEST(XmlColorMap, OfParaView) {
+    const TransferFunction function = parseTransferFunction(
+        "<ColorMaps>\n<ColorMap name=\"m\" space='RGB'>\n<Point x=\"0\" o=\"0\" r=\"0\" g=\"0\" b=\"1\"/>\n"
+        "<Point x=\"1\" o=\"1\" r=\"1\" g=\"0\" b=\"0\"/>\n</ColorMap>\n</ColorMaps>",
+        "map.xml");
+    EXPECT_TRUE(function.normalized);
+    EXPECT_EQ(function.colorAt(0.25), glm::dvec3(0.25, 0, 0.75));
+    EXPECT_EQ(function.extinctionAt(0.5), 25.0);
+}
+
+TEST(XmlColorMap, OfVisIt) {
+    const auto point = [](const char* color, const char* position) {
+        return std::string("<Object name=\"ColorControlPoint\">\n<Field name=\"colors\" type=\"unsignedCharArray\" "
+                           "length=\"4\">") +
+               color + " </Field>\n<Field name=\"position\" type=\"float\">" + position + "</Field>\n</Object>\n";
+    };
+    const TransferFunction function = parseTransferFunction(
+        "<?xml version=\"1.0\"?>\n<Object name=\"ColorTable\">\n<Field name=\"Version\" "
+        "type=\"string\">3.0.0</Field>\n<Object name=\"ColorControlPointList\">\n" +
+            point("0 0 255 255", "0") + point("0 255 0 255", "0.75") + point("255 0 0 255", "1") +
+            "</Object>\n</Object>\n",
+        "map.ct");
+    EXPECT_EQ(function.colorAt(0.0), glm::dvec3(0, 0, 1));
+    EXPECT_EQ(function.colorAt(0.75), glm::dvec3(0, 1, 0));
+    EXPECT_EQ(function.colorAt(1.0), glm::dvec3(1, 0, 0));
+    for (const char* other : {"<a/>", "<", "<ColorMap><Point x=\"q\"/>", "<ColorMap indexedLookup='1'>"})
+        EXPECT_THROW(parseTransferFunction(other, "map.xml"), std::runtime_error) << other;
+}
+
+TEST(ColorMaps, OfOtherProgramsAreRefusedByName) {
+    const std::string path = testing::TempDir() + "map_slicer.vp";
+    std::ofstream(path) << "10\n4 0 0 1 1\n";
+    try {
+        readTransferFunction(path);
+        ADD_FAILURE();
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("is a volume property of 3D Slicer, which is not read"),
+                  std::string::npos)
+            << error.what();
+    }
 }
 
 }  // namespace

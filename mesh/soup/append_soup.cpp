@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <mesh/soup/append_soup.h>
+
 #include <algorithm>
 #include <limits>
 
-#include <mesh/io/vtk_soup.h>
+#include <mesh/soup/cell_types.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -10,7 +12,7 @@ namespace {
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t placesOf(const CellSoup& soup, Association association) {
-    return association == Association::Point ? soup.points.size() : soup.types.size();
+    return association == Association::Point ? soup.points.size() : soup.cellCount();
 }
 
 void appendFields(CellSoup& soup, CellSoup& other) {
@@ -35,6 +37,10 @@ void appendFields(CellSoup& soup, CellSoup& other) {
     }
 }
 
+std::uint32_t shifted(std::uint32_t point, const CellSoup& from, std::uint32_t shift) {
+    return point >= from.points.size() ? CellSoup::invalidPoint : point + shift;
+}
+
 void appendPolyhedra(CellSoup& soup, const CellSoup& other, std::uint32_t shift) {
     if (soup.faceOffsets.empty() && other.faceOffsets.empty()) {
         return;
@@ -49,20 +55,47 @@ void appendPolyhedra(CellSoup& soup, const CellSoup& other, std::uint32_t shift)
     for (std::uint64_t at = before; at < soup.faceStream.size();) {
         const std::uint64_t points = soup.faceStream[at++];
         for (std::uint64_t k = 0; k < points && at < soup.faceStream.size(); ++k, ++at) {
-            soup.faceStream[at] =
-                soup.faceStream[at] >= other.points.size() ? CellSoup::invalidPoint : soup.faceStream[at] + shift;
+            soup.faceStream[at] = shifted(soup.faceStream[at], other, shift);
         }
     }
 }
 
+/// Of two soups that hold just tetrahedra.
+void appendTetrahedra(CellSoup& soup, CellSoup&& other, std::uint32_t shift) {
+    appendFields(soup, other);
+    soup.tetrahedra.reserve(soup.tetrahedra.size() + other.tetrahedra.size());
+    for (std::array<std::uint32_t, 4> cell : other.tetrahedra) {
+        for (std::uint32_t& p : cell) {
+            p = shifted(p, other, shift);
+        }
+        soup.tetrahedra.push_back(cell);
+    }
+    soup.points.insert(soup.points.end(), other.points.begin(), other.points.end());
+}
+
 }  // namespace
 
+void preferGeneralCells(CellSoup& soup) {
+    for (const std::array<std::uint32_t, 4>& cell : soup.tetrahedra) {
+        appendCell(soup, cell_type::tetrahedron, cell);
+    }
+    soup.tetrahedra = {};
+}
+
 void appendSoup(CellSoup& soup, CellSoup&& other) {
-    if (soup.points.empty() && soup.types.empty() && soup.fields.empty()) {
+    if (soup.points.empty() && soup.cellCount() == 0 && soup.fields.empty()) {
+        other.notes.insert(other.notes.begin(), soup.notes.begin(), soup.notes.end());
         soup = std::move(other);
         return;
     }
+    soup.notes.insert(soup.notes.end(), other.notes.begin(), other.notes.end());
     const std::uint32_t shift = static_cast<std::uint32_t>(soup.points.size());
+    if (!soup.tetrahedra.empty() && !other.tetrahedra.empty()) {
+        appendTetrahedra(soup, std::move(other), shift);
+        return;
+    }
+    preferGeneralCells(soup);
+    preferGeneralCells(other);
     appendFields(soup, other);
     appendPolyhedra(soup, other, shift);
     if (!soup.hidden.empty() || !other.hidden.empty()) {
@@ -78,7 +111,7 @@ void appendSoup(CellSoup& soup, CellSoup&& other) {
         soup.offsets.push_back(before + other.offsets[cell + 1]);
     }
     for (const std::uint32_t p : other.connectivity) {
-        soup.connectivity.push_back(p >= other.points.size() ? CellSoup::invalidPoint : p + shift);
+        soup.connectivity.push_back(shifted(p, other, shift));
     }
     soup.points.insert(soup.points.end(), other.points.begin(), other.points.end());
     soup.types.insert(soup.types.end(), other.types.begin(), other.types.end());

@@ -114,8 +114,7 @@ std::string componentsText(const mesh::FieldStatistics& field) {
 
 void printField(const mesh::FieldStatistics& field) {
     fmt::print("  {} on {}{}: {:.6g} to {:.6g}, mean {:.6g}{}", field.name, placeName(field.association),
-               componentsText(field), field.low,
-               field.high, field.mean, sketch(field.histogram));
+               componentsText(field), field.low, field.high, field.mean, sketch(field.histogram));
     if (field.nonFinite > 0) fmt::print(" ({} values are NaN or infinite)", field.nonFinite);
     if (field.bookkeeping) fmt::print(" (bookkeeping)");
     fmt::print("\n");

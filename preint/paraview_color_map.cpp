@@ -164,7 +164,8 @@ void takeLogarithms(const JsonPlace& map, std::vector<Node>& nodes, Given& given
 /// Takes nodes back from there, with further ones between: over a ratio q of scalars a chord of the logarithm is off by
 /// at most (ln q)² / 8, and `change(a, b)` is how much there is between two nodes, in units of the error allowed.
 template <class Node, class Change, class Between>
-std::vector<Node> fromLogarithms(const std::vector<Node>& nodes, const Given& given, const Change& change, const Between& between) {
+std::vector<Node> fromLogarithms(const std::vector<Node>& nodes, const Given& given, const Change& change,
+                                 const Between& between) {
     std::vector<Node> result;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (i > 0 && nodes[i].scalar > nodes[i - 1].scalar) {

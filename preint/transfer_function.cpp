@@ -167,15 +167,14 @@ TransferFunction parseTransferFunction(const std::string& json, const std::strin
 
 /// What other programs keep colours in and what to do with it.
 void refuseOtherKinds(const std::string& path) {
-    static const std::array<std::array<const char*, 2>, 8> kinds{
-        {{".vp", "a volume property of 3D Slicer"},
-         {".ctbl", "a color table of 3D Slicer"},
-         {".cpt", "a palette of GMT"},
-         {".gpl", "a palette of GIMP"},
-         {".lut", "a lookup table"},
-         {".act", "a color table of Photoshop"},
-         {".cmap", "a color map"},
-         {".xmf", "XDMF"}}};
+    static const std::array<std::array<const char*, 2>, 8> kinds{{{".vp", "a volume property of 3D Slicer"},
+                                                                  {".ctbl", "a color table of 3D Slicer"},
+                                                                  {".cpt", "a palette of GMT"},
+                                                                  {".gpl", "a palette of GIMP"},
+                                                                  {".lut", "a lookup table"},
+                                                                  {".act", "a color table of Photoshop"},
+                                                                  {".cmap", "a color map"},
+                                                                  {".xmf", "XDMF"}}};
     for (const auto& [extension, kind] : kinds) {
         if (path.ends_with(extension)) {
             throw std::runtime_error(

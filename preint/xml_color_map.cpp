@@ -78,7 +78,8 @@ nlohmann::json fromParaView(const std::vector<Element>& elements, const std::str
                 refuse(origin, "is a categorical color map; export one of a range");
         } else if (element.name == "Point") {
             const double x = number("x", 0.0);
-            for (const double value : {x, number("r", 0.0), number("g", 0.0), number("b", 0.0)}) colors.push_back(value);
+            for (const double value : {x, number("r", 0.0), number("g", 0.0), number("b", 0.0)})
+                colors.push_back(value);
             for (const double value : {x, number("o", 1.0), 0.5, 0.0}) opacities.push_back(value);
         }
     }
@@ -139,8 +140,9 @@ nlohmann::json xmlColorMap(const std::string& text, const std::string& origin) {
         if (element.name == "Object" && found != element.attributes.end() && found->second.starts_with("ColorControl"))
             return fromVisIt(elements, origin);
     }
-    refuse(origin, "is XML without a <ColorMap> of ParaView or the control points of a .ct of VisIt; save one of these, "
-                   "or JSON as ParaView exports it");
+    refuse(origin,
+           "is XML without a <ColorMap> of ParaView or the control points of a .ct of VisIt; save one of these, "
+           "or JSON as ParaView exports it");
 }
 
 }  // namespace tetralux::preint

@@ -155,7 +155,8 @@ private:
         return cells && soup_.points.size() == piece_.points;
     }
 
-    /// Calls `use(T{})` with the type in which the array's values are read: text is, if not of whole numbers, as doubles.
+    /// Calls `use(T{})` with the type in which the array's values are read: text is, if not of whole numbers, as
+    /// doubles.
     template <class Use>
     static bool withTypeOf(const VtuArray& array, const Use& use) {
         return withType(array.form == VtuArray::Form::Text && array.type == "Float32" ? "Float64" : array.type, use);
@@ -308,7 +309,8 @@ private:
         return array.name == "types" &&
                decode<std::uint8_t>(array, room,
                                     [](auto value) {
-                                        return value >= 0 && value < cell_type::gmshPyramid && value != cell_type::polyhedron
+                                        return value >= 0 && value < cell_type::gmshPyramid &&
+                                                       value != cell_type::polyhedron
                                                    ? static_cast<std::uint8_t>(value)
                                                    : std::uint8_t{255};
                                     }) &&
@@ -347,8 +349,8 @@ private:
     bool onlyTetrahedra_ = false;
 };
 
-/// Puts the points of Lagrange and Bézier hexahedra from VTK 8's order into that of VTK 9, in which the last two of the
-/// upright edges have changed places.
+/// Puts the points of Lagrange and Bézier hexahedra from VTK 8's order into that of VTK 9, in which the last two of
+/// the upright edges have changed places.
 void renumberHexahedronsOfVtk8(CellSoup& soup) {
     for (std::size_t cell = 0; cell < soup.types.size(); ++cell) {
         const bool curved =

@@ -61,6 +61,12 @@ constexpr bool canLimitMemory = true;
 constexpr bool canLimitMemory = true;
 #endif
 
+/// Whether the data may stand in other files, of any size.
+bool mayNameOthers(const std::string& source) {
+    return hasExtension(source, {".pvtu", ".pvti", ".pvtr", ".pvts", ".pvtp", ".vtm", ".vtpd", ".vtpc", ".vth", ".vthb",
+                                 ".pvd", ".case", ".encas", ".foam", ".mhd", ".cgns", ".cas"});
+}
+
 /// What a reader may need of memory, in bytes: no compression here shrinks data to less than a few thousandths, a byte
 /// may become a double, and cells are made of it. Nothing is known of files that only name those with the data.
 std::uint64_t memoryFor(const std::string& source) {
@@ -69,10 +75,8 @@ std::uint64_t memoryFor(const std::string& source) {
                                   static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE)) / 4 * 3;
     std::error_code failed;
     const std::uint64_t size = std::filesystem::file_size(source, failed);
-    const bool mayNameOthers =
-        hasExtension(source, {".pvtu", ".pvti", ".pvtr", ".pvts", ".pvtp", ".vtm", ".vtpd", ".vtpc", ".vth", ".vthb",
-                              ".pvd", ".case", ".encas", ".foam", ".mhd", ".cgns", ".cas"});
-    return failed || mayNameOthers || size > machine / perByte ? machine : std::min(machine, base + perByte * size);
+    return failed || mayNameOthers(source) || size > machine / perByte ? machine
+                                                                       : std::min(machine, base + perByte * size);
 }
 
 /// Bytes that this process may write to, which a forked one has too.
@@ -85,6 +89,14 @@ std::uint64_t memoryInUse() {
     return pages[5] * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
 }
 
+/// Of processor time: what is read quickly may wait long on a busy machine.
+std::chrono::seconds timeLimit(const std::string& source) {
+    std::error_code failed;
+    const auto size = std::filesystem::file_size(source, failed);
+    const long long base = failed || mayNameOthers(source) ? 60 : 10;
+    return std::chrono::seconds(base + (failed ? 0 : static_cast<long long>(size >> 20)));
+}
+
 void limitChild(const std::string& source) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     const rlimit noCore{0, 0};
@@ -94,6 +106,9 @@ void limitChild(const std::string& source) {
     if (canLimitMemory) {
         setrlimit(RLIMIT_DATA, &memory);
     }
+    const auto seconds = static_cast<rlim_t>(timeLimit(source).count());
+    const rlimit time{seconds, seconds + 1};
+    setrlimit(RLIMIT_CPU, &time);
     for (const int fault : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGTERM, SIGINT}) {
         std::signal(fault, SIG_DFL);
     }
@@ -140,12 +155,6 @@ bool waitForEnd(int pipe, std::chrono::seconds limit) {
     }
 }
 
-std::chrono::seconds timeLimit(const std::string& source) {
-    std::error_code failed;
-    const auto size = std::filesystem::file_size(source, failed);
-    return std::chrono::seconds(10 + (failed ? 0 : static_cast<long long>(size >> 20)));
-}
-
 int reap(pid_t child) {
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
@@ -182,12 +191,13 @@ CellSoup readIsolated(const std::string& source, const std::function<CellSoup()>
         runChild(source, result.get(), read);
     }
     alive.close();
-    const bool ended = waitForEnd(watch.get(), timeLimit(source));
+    constexpr int mostWaiting = 10;  // times as long as it computes
+    const bool ended = waitForEnd(watch.get(), mostWaiting * timeLimit(source));
     if (!ended) {
         ::kill(child, SIGKILL);
     }
     const int status = reap(child);
-    if (!ended) {
+    if (!ended || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)) {
         refuse(source, "reading takes too long; if other programs read it, save it as .vtu there");
     }
     const int outcome = WIFEXITED(status) ? WEXITSTATUS(status) : notWritten;
@@ -200,7 +210,8 @@ CellSoup readIsolated(const std::string& source, const std::function<CellSoup()>
         refuse(source, readText(result.get()));
     }
     if (outcome != resultWritten) {
-        refuse(source, "its reader does not survive it; if other programs read it, save it as .vtu there, else write it again");
+        refuse(source,
+               "its reader does not survive it; if other programs read it, save it as .vtu there, else write it again");
     }
     CellSoup soup;
     ::lseek(result.get(), 0, SEEK_SET);

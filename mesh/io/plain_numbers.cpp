@@ -81,8 +81,8 @@ private:
             }
             const std::string_view word = text_.substr(begin, at_ - begin);
             double value = 0.0;
-            named = named || (words++ == 0 && (word[0] == '#' || (isLetter(word[0]) &&
-                                                                   parseNumber(word, value) != NumberText::Good)));
+            named = named || (words++ == 0 &&
+                              (word[0] == '#' || (isLetter(word[0]) && parseNumber(word, value) != NumberText::Good)));
             if (named && !places_.inNamedLines && !places_.everyWord) {
                 return;
             }
@@ -101,8 +101,8 @@ private:
         if (kind != NumberText::Good) {
             const bool tooLarge = kind == NumberText::Beyond && !named;
             if (places_.everyWord || tooLarge || (meant && (kind == NumberText::Beyond || word[0] == '*'))) {
-                throw std::runtime_error(fmt::format("line {}: {}; {}", line, complaintOf(word, kind, "a number"),
-                                                     remedyFor(word, kind)));
+                throw std::runtime_error(
+                    fmt::format("line {}: {}; {}", line, complaintOf(word, kind, "a number"), remedyFor(word, kind)));
             }
             return;
         }
@@ -111,15 +111,16 @@ private:
         }
         result_.text.append(text_.substr(copied_, begin - copied_));
         noteSize(value);
-        const double written = std::isnan(value) ? forNan : std::isinf(value) ? std::copysign(forInfinity, value) : value;
+        const double written = std::isnan(value)   ? forNan
+                               : std::isinf(value) ? std::copysign(forInfinity, value)
+                                                   : value;
         fmt::format_to(std::back_inserter(result_.text), "{}", written);
         copied_ = begin + word.size();
     }
 
     void noteSize(double value) {
         const double size = std::abs(value);
-        result_.beyondFloat =
-            result_.beyondFloat || (size > std::numeric_limits<float>::max() && std::isfinite(size));
+        result_.beyondFloat = result_.beyondFloat || (size > std::numeric_limits<float>::max() && std::isfinite(size));
     }
 
     std::string_view text_;

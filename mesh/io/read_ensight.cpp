@@ -64,8 +64,7 @@ bool isNamed(const std::string& caseText, const std::string& file) {
 /// The numbers of a text file as VTK reads them; nothing if it does, or if the file is binary.
 std::optional<PlainText> plainFile(const fs::path& file) {
     const std::string text = readWholeFile(file.string());
-    if (text.starts_with("C Binary") || text.starts_with("Fortran") ||
-        text.find('\0') != std::string::npos) {
+    if (text.starts_with("C Binary") || text.starts_with("Fortran") || text.find('\0') != std::string::npos) {
         return std::nullopt;
     }
     try {

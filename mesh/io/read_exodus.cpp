@@ -31,10 +31,8 @@ struct KnownElement {
     std::string_view name;
     std::vector<std::size_t> nodes;
 };
-const std::array<KnownElement, 4> knownElements{{{"TET", {4, 10, 15}},
-                                                 {"PYR", {5, 13}},
-                                                 {"WED", {6, 15, 18, 21}},
-                                                 {"HEX", {8, 20, 21, 27}}}};
+const std::array<KnownElement, 4> knownElements{
+    {{"TET", {4, 10, 15}}, {"PYR", {5, 13}}, {"WED", {6, 15, 18, 21}}, {"HEX", {8, 20, 21, 27}}}};
 
 class NetCdfFile {
 public:
@@ -62,7 +60,7 @@ public:
         }
         std::string value(size, '\0');
         return nc_get_att_text(id_, place, attribute, value.data()) == NC_NOERR ? value.substr(0, value.find('\0'))
-                                                                               : std::string();
+                                                                                : std::string();
     }
 
 private:
@@ -84,8 +82,7 @@ void refuseUnknownElements(const std::string& source) {
                        [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
         for (const KnownElement& known : knownElements) {
             const auto is = [&](std::size_t count) { return count == nodes; };
-            if (name.starts_with(known.name) && nodes > 0 &&
-                std::none_of(known.nodes.begin(), known.nodes.end(), is)) {
+            if (name.starts_with(known.name) && nodes > 0 && std::none_of(known.nodes.begin(), known.nodes.end(), is)) {
                 throw std::runtime_error(
                     fmt::format("its block {} has elements of type {} with {} nodes, which are not read; write them "
                                 "with {} nodes",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Gmsh's MSH format as its reference manual describes it (versions 1, 2.2 and 4.1). Gmsh's own library is GPL and would
-/// make the renderer so.
+/// Gmsh's MSH format as its reference manual describes it (versions 1, 2.2 and 4.1). Gmsh's own library is GPL and
+/// would make the renderer so.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -56,6 +56,9 @@ private:
     void parseFormat() {
         if (scan_.peek().starts_with('(')) {
             scan_.refuse("is a mesh of ANSYS Fluent, not of Gmsh", "give it the ending .cas");
+        }
+        while (scan_.peek().starts_with('$') && scan_.peek() != "$MeshFormat" && scan_.peek() != "$NOD") {
+            endSection("$End" + std::string(scan_.word("a section").substr(1)));  // remarks
         }
         if (scan_.peek() == "$NOD") {
             return;  // version 1 has no head

@@ -13,12 +13,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <mesh/soup/append_soup.h>
 #include <mesh/io/file_checks.h>
 #include <mesh/io/mesh_format.h>
 #include <mesh/io/nearest_time.h>
 #include <mesh/io/number_text.h>
 #include <mesh/io/xml_tags.h>
+#include <mesh/soup/append_soup.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -35,7 +35,12 @@ struct Listing {
 const std::vector<Listing>& listings() {
     static const std::vector<Listing> all{
         {{".pvd"}, "ParaView collection", {"Collection"}, "DataSet", "file", true},
-        {{".pvtu"}, "mesh in pieces", {"PUnstructuredGrid"}, "Piece", "Source", false},
+        {{".pvtu", ".pvti", ".pvtr", ".pvts", ".pvtp"},
+         "mesh in pieces",
+         {"PUnstructuredGrid", "PImageData", "PRectilinearGrid", "PStructuredGrid", "PPolyData"},
+         "Piece",
+         "Source",
+         false},
         {{".vtm", ".vtpd", ".vtpc"},
          "mesh in blocks",
          {"vtkMultiBlockDataSet", "vtkPartitionedDataSet", "vtkPartitionedDataSetCollection", "vtkMultiPieceDataSet",
@@ -79,14 +84,26 @@ private:
     int file_;
 };
 
+/// Whether the file names grids of which finer ones stand for parts of coarser ones: to know these takes VTK.
+bool holdsAmr(const std::string& source) {
+    const OpenListing file(source);
+    XmlTags tags(file.get());
+    std::optional<XmlTag> tag = tags.next();
+    while (tag && tag->name != "VTKFile") {
+        tag = tags.next();
+    }
+    const std::string type = tag ? tag->get("type") : "";
+    return type == "vtkHierarchicalBoxDataSet" || type == "vtkOverlappingAMR" || type == "vtkNonOverlappingAMR";
+}
+
 std::vector<Entry> readEntries(const std::string& source, const Listing& listing) {
     const OpenListing file(source);
     XmlTags tags(file.get());
     bool isOfTheKind = false;
     std::vector<Entry> entries;
     while (const std::optional<XmlTag> tag = tags.next()) {
-        isOfTheKind = isOfTheKind || std::find(listing.elements.begin(), listing.elements.end(), tag->name) !=
-                                         listing.elements.end();
+        isOfTheKind = isOfTheKind ||
+                      std::find(listing.elements.begin(), listing.elements.end(), tag->name) != listing.elements.end();
         const std::string file_ = tag->get(listing.attribute);
         Entry entry;
         if (tag->name == listing.entry && !file_.empty() &&
@@ -101,8 +118,7 @@ std::vector<Entry> readEntries(const std::string& source, const Listing& listing
                                              listing.what, listing.elements.front()));
     }
     if (entries.empty()) {
-        throw std::runtime_error(
-            fmt::format("{}: names no file; add a {} element for each", source, listing.entry));
+        throw std::runtime_error(fmt::format("{}: names no file; add a {} element for each", source, listing.entry));
     }
     return entries;
 }
@@ -177,6 +193,9 @@ CellSoup readListing(const std::string& source, const ReadOptions& options) {
     checkReadable(source);
     const Depth depth(source);
     const Listing& listing = *listingOf(source);
+    if (holdsAmr(source)) {
+        return vtkXmlFormat.read(source, options);
+    }
     std::vector<Entry> entries = readEntries(source, listing);
     CellSoup soup;
     if (!listing.isSeries) {
@@ -203,7 +222,7 @@ CellSoup readListing(const std::string& source, const ReadOptions& options) {
 
 }  // namespace
 
-const MeshFormat listingFormat{"ParaView series, pieces and blocks", ".pvd .pvtu .vtm .vtpc", acceptsListing,
+const MeshFormat listingFormat{"ParaView series, pieces and blocks", ".pvd .pvtu .pvti .vtm .vtpc", acceptsListing,
                                readListing};
 
 }  // namespace tetralux::mesh

@@ -18,9 +18,9 @@ namespace {
 
 // One line per format; the first that accepts a source reads it.
 const std::array formats{
-    &vtkXmlFormat, &legacyVtkFormat, &vtkHdfFormat,   &listingFormat,   &exodusFormat,
-    &cgnsFormat,   &ensightFormat,   &openFoamFormat, &ucdFormat,   &fluentFormat,
-    &imageFormat,  &rawFormat,       &gmshFormat,     &meditFormat, &tetgenFormat,
+    &vtkXmlFormat, &legacyVtkFormat, &vtkHdfFormat,   &listingFormat, &exodusFormat,
+    &cgnsFormat,   &ensightFormat,   &openFoamFormat, &ucdFormat,     &fluentFormat,
+    &imageFormat,  &rawFormat,       &gmshFormat,     &meditFormat,   &tetgenFormat,
 };
 
 struct OtherKind {

@@ -81,8 +81,8 @@ std::vector<fs::path> processorsOf(const fs::path& folder) {
         const std::string name = entry.filename().string();
         int number = 0;
         const char* const end = name.data() + name.size();
-        if (name.starts_with(prefix) &&
-            std::from_chars(name.data() + prefix.size(), end, number).ptr == end && name.size() > prefix.size()) {
+        if (name.starts_with(prefix) && std::from_chars(name.data() + prefix.size(), end, number).ptr == end &&
+            name.size() > prefix.size()) {
             parts[number] = entry;
         }
         collated = collated || name.starts_with("processors");
@@ -133,7 +133,7 @@ CellSoup readOpenFoam(const std::string& source, const ReadOptions& options) {
     const bool isFolder = fs::is_directory(source, failed);
     const std::string file = isFolder ? controlFile(source).string() : source;
     const fs::path given = fs::absolute(source);
-    const fs::path folder = isFolder                               ? given
+    const fs::path folder = isFolder                                ? given
                             : hasExtension(source, {"controlDict"}) ? given.parent_path().parent_path()
                                                                     : given.parent_path();
     const TemporaryFolder links(source);

@@ -27,6 +27,13 @@ void addFields(CellSoup& soup, const char* name, Association association, std::s
     }
 }
 
+/// Chaste puts bytes behind the same heads.
+void refuseBinary(TextScanner& scan, std::string_view head) {
+    if (head.find("BIN") != std::string_view::npos) {
+        scan.refuse("has its numbers as bytes, as Chaste writes them, which is not read", "save it as text");
+    }
+}
+
 /// \returns the number of the first point, 0 or 1, which cells count from.
 std::int64_t parseNodes(TextScanner& scan, CellSoup& soup) {
     const std::size_t points = scan.count("the number of points", 7);
@@ -34,7 +41,8 @@ std::int64_t parseNodes(TextScanner& scan, CellSoup& soup) {
         scan.refuse("has points of a dimension other than 3", "give a mesh of tetrahedra");
     }
     const std::size_t attributes = scan.count("the number of attributes", 1);
-    const bool markers = scan.integer("the flag of boundary markers") != 0;
+    // The rest says whether there are boundary markers: writers forget to say, or to write them.
+    refuseBinary(scan, scan.restOfLine());
     addFields(soup, "attribute", Association::Point, attributes, points);
     std::int64_t first = 0;
     soup.points.reserve(points);
@@ -49,9 +57,7 @@ std::int64_t parseNodes(TextScanner& scan, CellSoup& soup) {
         for (Field& field : soup.fields) {
             field.values.push_back(scan.number("an attribute"));
         }
-        if (markers) {
-            scan.word("a boundary marker");
-        }
+        scan.restOfLine();
     }
     return first;
 }
@@ -86,6 +92,7 @@ void parseElements(TextScanner& scan, std::int64_t firstPoint, CellSoup& soup) {
                     "give a mesh of tetrahedra");
     }
     const std::size_t attributes = scan.count("the number of region attributes", 1);
+    refuseBinary(scan, scan.restOfLine());
     const std::size_t pointFields = soup.fields.size();
     addFields(soup, "region", Association::Cell, attributes, cells);
     for (std::size_t i = 0; i < cells; ++i) {

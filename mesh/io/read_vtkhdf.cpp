@@ -58,8 +58,12 @@ public:
         const std::vector<std::int64_t> points = group_.integers("NumberOfPoints", firstPart, count);
         const std::vector<std::int64_t> cells = group_.integers("NumberOfCells", firstPart, count);
         const std::vector<std::int64_t> ids = group_.integers("NumberOfConnectivityIds", firstPart, count);
-        Place place{offset("PointOffsets").value_or(0), offset("CellOffsets").value_or(0),
-                    offset("ConnectivityIdOffsets").value_or(0), firstPart, 0, 0};
+        Place place{offset("PointOffsets").value_or(0),
+                    offset("CellOffsets").value_or(0),
+                    offset("ConnectivityIdOffsets").value_or(0),
+                    firstPart,
+                    0,
+                    0};
         for (std::size_t part = 0; part < points.size(); ++part) {
             const Sizes sizes{size(points[part], "number of points"), size(cells[part], "number of cells"),
                               size(ids[part], "number of connectivity ids")};
@@ -153,7 +157,8 @@ private:
             if (type == cell_type::polyhedron) {
                 throw std::runtime_error("has polyhedra, which are not read from VTKHDF; save it as .vtu in ParaView");
             }
-            soup.types.push_back(type >= 0 && type < cell_type::gmshPyramid ? static_cast<std::uint8_t>(type) : std::uint8_t{255});
+            soup.types.push_back(type >= 0 && type < cell_type::gmshPyramid ? static_cast<std::uint8_t>(type)
+                                                                            : std::uint8_t{255});
         }
         // Each part has one offset more than cells.
         for (const std::int64_t at : group_.integers("Offsets", place.cell + place.part, sizes.cells + 1)) {

@@ -74,7 +74,8 @@ const char* remedyFor(std::string_view message) {
         says("cannot read data from file")) {
         return "a file that it names is missing or damaged: put it in its place";
     }
-    for (const std::string_view end : {"too short", "remature", "nd of file", "runcated", "not enough", "unexpected end"}) {
+    for (const std::string_view end :
+         {"too short", "remature", "nd of file", "runcated", "not enough", "unexpected end"}) {
         if (says(end)) {
             return "it is probably truncated or damaged: write it again";
         }

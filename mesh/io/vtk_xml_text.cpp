@@ -30,7 +30,7 @@ struct Outline {
     Span file{}, grid{};  ///< the opening tags
     std::string wholeExtent;
     std::vector<Span> pieces;
-    std::vector<std::string> extents;  ///< of the pieces, if they are grids
+    std::vector<std::string> extents;       ///< of the pieces, if they are grids
     std::vector<Span> numbers, numberTags;  ///< text of arrays of numbers, and their opening tags
 };
 
@@ -133,12 +133,14 @@ VtkXmlText plainVtkXml(const std::string& path) {
     const Outline outline = outlineOf(file);
     ::close(file);
     VtkXmlText result{outline.kind, {}};
-    if (outline.pieces.size() < 2 && outline.numbers.empty()) {
+    const bool isPart = outline.pieces.size() == 1 && !outline.extents[0].empty() && !outline.wholeExtent.empty() &&
+                        outline.extents[0] != outline.wholeExtent;
+    if (outline.pieces.size() < 2 && outline.numbers.empty() && !isPart) {
         return result;
     }
     const std::string text = readWholeFile(path);
     const std::vector<Change> numbers = plainNumbers(text, outline);
-    if (outline.pieces.size() < 2) {
+    if (outline.pieces.size() < 2 && !isPart) {
         if (!numbers.empty()) {
             result.files.push_back(changed(text, numbers));
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
 /// VTK XML files as VTK's readers understand them: one piece each, because they take the arrays of further pieces by
-/// their places and not by their names, and numbers as C writes them.
+/// their places and not by their names, no larger than it, and numbers as C writes them.
 #pragma once
 
 #include <string>

@@ -38,10 +38,10 @@ struct VtuPiece {
 
 /// What the XML of a .vtu file says.
 struct VtuHead {
-    VtuEncoding encoding;  ///< base64: of appended arrays; those at their place always are
+    VtuEncoding encoding;            ///< base64: of appended arrays; those at their place always are
     bool hexahedronsOfVtk8 = false;  ///< Lagrange and Bézier ones have their points in the order that VTK had before 9
-    std::uint64_t dataStart = 0;  ///< of the appended part, in bytes from the start of the file
-    std::vector<VtuPiece> pieces;  ///< at least one
+    std::uint64_t dataStart = 0;     ///< of the appended part, in bytes from the start of the file
+    std::vector<VtuPiece> pieces;    ///< at least one
 };
 
 /// The head of an open file, if it is of the plain kind described above in this machine's byte order; nothing for any

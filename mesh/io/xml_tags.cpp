@@ -114,8 +114,7 @@ std::optional<XmlTag> XmlTags::next() {
     text_ = file_.at(tagStart_ + 1);
     at_ = 0;
     XmlTag tag;
-    while (at_ < text_.size() && !isSpace(text_[at_]) && text_[at_] != '>' &&
-           (text_[at_] != '/' || tag.name.empty())) {
+    while (at_ < text_.size() && !isSpace(text_[at_]) && text_[at_] != '>' && (text_[at_] != '/' || tag.name.empty())) {
         tag.name += text_[at_++];
     }
     while (takeAttribute(tag)) {

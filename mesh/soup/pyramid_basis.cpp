@@ -82,8 +82,8 @@ std::vector<std::vector<double>> pyramidShapeFunctions(int order, const std::vec
     std::vector<std::vector<double>> matrix(points.size(), std::vector<double>(points.size()));
     for (std::size_t n = 0; n < points.size(); ++n) {
         const double across = std::max(1, order - points[n][2]);
-        const std::vector<double> basis = basisAt(
-            order, {points[n][0] / across, points[n][1] / across, static_cast<double>(points[n][2]) / order});
+        const std::vector<double> basis =
+            basisAt(order, {points[n][0] / across, points[n][1] / across, static_cast<double>(points[n][2]) / order});
         for (std::size_t k = 0; k < basis.size(); ++k) {
             matrix[k][n] = basis[k];
         }

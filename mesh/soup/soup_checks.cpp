@@ -195,9 +195,9 @@ void checkFields(const CellSoup& soup) {
         const std::size_t places = field.association == Association::Point ? soup.points.size() : soup.cellCount();
         const std::size_t names = field.componentNames.size();
         if (names != 0 && names != static_cast<std::size_t>(field.components)) {
-            throw std::runtime_error(
-                fmt::format("field '{}' has {} components with {} names; this is a fault of the reader, please report it",
-                            field.name, field.components, names));
+            throw std::runtime_error(fmt::format(
+                "field '{}' has {} components with {} names; this is a fault of the reader, please report it",
+                field.name, field.components, names));
         }
         if (field.components < 1 || field.values.size() != places * static_cast<std::size_t>(field.components)) {
             throw std::runtime_error(

@@ -100,6 +100,24 @@ inline std::vector<SmallMesh> smallMeshes() {
     };
 }
 
+/// `text` with `with` in place of the first `old`, which must be there.
+inline std::string replaced(std::string text, const std::string& old, const std::string& with) {
+    const std::size_t at = text.find(old);
+    EXPECT_NE(at, std::string::npos) << old;
+    return at == std::string::npos ? text : text.replace(at, old.size(), with);
+}
+
+/// The small mesh that is opened by `source`.
+inline SmallMesh smallMesh(const std::string& source) {
+    for (const SmallMesh& mesh : smallMeshes()) {
+        if (mesh.source == source) {
+            return mesh;
+        }
+    }
+    ADD_FAILURE() << source;
+    return {};
+}
+
 /// Writes the files into a folder and \returns the path to open.
 inline std::string written(const SmallMesh& mesh, const TemporaryFolder& folder) {
     for (const SmallFile& file : mesh.files) {

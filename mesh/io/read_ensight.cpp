@@ -105,11 +105,15 @@ CellSoup readEnsight(const std::string& source, const ReadOptions& options) {
     const TemporaryFolder folder(source);
     return readIsolated(source, [&] {
         const bool changed = fillFolder(source, folder);
-        CellSoup soup = readCase((folder.path() / plainCase).string(), options.time);
-        if (changed) {
-            restoreNotFinite(soup);
+        try {
+            CellSoup soup = readCase((folder.path() / plainCase).string(), options.time);
+            if (changed) {
+                restoreNotFinite(soup);
+            }
+            return soup;
+        } catch (const std::runtime_error& error) {
+            throw std::runtime_error(folder.shown(error.what(), fs::path(source).parent_path()));
         }
-        return soup;
     });
 }
 

@@ -118,7 +118,7 @@ CellSoup readDecomposed(const std::string& source, const fs::path& folder, const
         try {
             part = readCase((links.path() / name / "system" / "controlDict").string(), time);
         } catch (const std::runtime_error& error) {
-            throw std::runtime_error(fmt::format("in {}: {}", name.string(), error.what()));
+            throw std::runtime_error(fmt::format("in {}: {}", name.string(), links.shown(error.what(), folder)));
         }
         soup.times = part.times;
         appendSoup(soup, std::move(part));

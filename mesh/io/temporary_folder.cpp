@@ -30,4 +30,12 @@ void TemporaryFolder::link(const std::filesystem::path& target, const std::files
     std::filesystem::create_symlink(std::filesystem::absolute(target, failed), path_ / name, failed);
 }
 
+std::string TemporaryFolder::shown(std::string message, const std::filesystem::path& instead) const {
+    const std::string own = path_.string();
+    for (std::size_t at = message.find(own); at != std::string::npos; at = message.find(own, at + 1)) {
+        message.replace(at, own.size(), instead.string());
+    }
+    return message;
+}
+
 }  // namespace tetralux::mesh

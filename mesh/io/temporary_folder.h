@@ -17,6 +17,8 @@ public:
     const std::filesystem::path& path() const { return path_; }
     /// A link to `target` called `name`, unless something is called so already.
     void link(const std::filesystem::path& target, const std::filesystem::path& name) const;
+    /// `message` with `instead` wherever it names this folder, which no one knows.
+    std::string shown(std::string message, const std::filesystem::path& instead) const;
 
 private:
     std::filesystem::path path_;

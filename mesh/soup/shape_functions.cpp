@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <mesh/soup/shape_functions.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <mesh/soup/cell_types.h>
@@ -122,6 +123,13 @@ std::vector<std::array<double, 3>> curvedCellPoints(std::uint8_t type, std::size
     }
     const double order = curvedCellOrder(type, pointCount).value();
     std::vector<Place> points;
+    if (type == cell_type::gmshPyramid) {
+        for (const auto& [i, j, k] : gmshLattice(Shape::Pyramid, static_cast<int>(order))) {
+            const double across = std::max(1.0, order - k);
+            points.push_back({i / across, j / across, k / order});
+        }
+        return points;
+    }
     for (const auto& [i, j, k] : lagrangePoints(cellTypeInfo(type).shape, static_cast<int>(order))) {
         points.push_back({i / order, j / order, k / order});
     }

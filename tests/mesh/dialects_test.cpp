@@ -379,6 +379,10 @@ TEST(Dialects, EnsightNamesInQuotes) {
         "FORMAT\ntype: ensight gold\n\nGEOMETRY\nmodel: \"my mesh.geo\"\n\nVARIABLE\nscalar per node: s \"a.s\"\n"));
     EXPECT_NEAR(totalVolume(result.mesh), smallMeshVolume, 1e-7);
     EXPECT_LT(largestError(result.mesh, smallMeshField), 1e-6);
+    // Whatever is wrong is said of the files that are there.
+    std::filesystem::remove(folder.file("a.s"));
+    const std::string text = errorOf([&] { readMesh(folder.file("the case.case")); });
+    EXPECT_NE(text.find(folder.file("a.s")), std::string::npos) << text;
 }
 
 /// Where the middle of each edge stands among the last six points is left to the file.

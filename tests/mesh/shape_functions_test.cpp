@@ -41,6 +41,11 @@ std::string nameOf(const Kind& kind) {
     return std::string(cellTypeInfo(kind.type).name) + " of " + std::to_string(kind.points) + " points";
 }
 
+/// Pyramids of any order come out of a system of equations.
+double roundoffOf(const Kind& kind) {
+    return kind.type == cell_type::gmshPyramid ? 1e-10 : 1e-13;
+}
+
 /// Places within the parametric cell.
 std::vector<Place> randomPlaces(Shape shape, std::size_t count) {
     std::mt19937 random(7);
@@ -84,8 +89,11 @@ std::vector<double> vtkFunctions(const Kind& kind, const Place& place) {
 
 TEST(ShapeFunctions, AreThoseOfVtk) {
     const std::vector<Kind> kinds = allKinds();
-    EXPECT_EQ(kinds.size(), 9u + 2u + 60u);  // of one number of points, with points within, of ten orders
+    EXPECT_EQ(kinds.size(), 9u + 2u + 70u);  // of one number of points, with points within, of ten orders
     for (const Kind& kind : kinds) {
+        if (kind.type == cell_type::gmshPyramid) {
+            continue;  // VTK has none
+        }
         const std::vector<Place> places = randomPlaces(cellTypeInfo(kind.type).shape, kind.points > 400 ? 3 : 20);
         const auto ours = shapeFunctions(kind.type, kind.points, places);
         for (std::size_t p = 0; p < places.size(); ++p) {
@@ -103,7 +111,7 @@ TEST(ShapeFunctions, AddUpToOne) {
     for (const Kind& kind : allKinds()) {
         const std::vector<Place> places = randomPlaces(cellTypeInfo(kind.type).shape, 5);
         for (const std::vector<double>& row : shapeFunctions(kind.type, kind.points, places)) {
-            ASSERT_NEAR(std::accumulate(row.begin(), row.end(), 0.0), 1.0, 1e-12) << nameOf(kind);
+            ASSERT_NEAR(std::accumulate(row.begin(), row.end(), 0.0), 1.0, 10.0 * roundoffOf(kind)) << nameOf(kind);
         }
     }
 }
@@ -117,7 +125,7 @@ TEST(ShapeFunctions, AreOneAtTheirPointsAndZeroAtOthers) {
         const auto rows = shapeFunctions(kind.type, kind.points, curvedCellPoints(kind.type, kind.points));
         for (std::size_t p = 0; p < kind.points; ++p) {
             for (std::size_t k = 0; k < kind.points; ++k) {
-                ASSERT_NEAR(rows[p][k], p == k ? 1.0 : 0.0, 1e-13) << nameOf(kind) << ", point " << p;
+                ASSERT_NEAR(rows[p][k], p == k ? 1.0 : 0.0, roundoffOf(kind)) << nameOf(kind) << ", point " << p;
             }
         }
     }

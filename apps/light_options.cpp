@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <vector>
 
@@ -77,6 +78,21 @@ void setAnisotropy(const std::string& text, shading::AnisotropySettings& setting
     }
 }
 
+void addSpecularByGradient(CLI::App& command, shading::Material& material) {
+    using shading::GradientSpecular;
+    const auto how = std::make_shared<std::string>();
+    command
+        .add_flag("--specular-by-gradient{relative}", *how,
+                  "highlights as strong as the gradient of extinction over its largest (relative, if nothing is said), "
+                  "or as it is (absolute): only where it rises do things shine")
+        ->each([how, &material](const std::string& text) {
+            if (text != "relative" && text != "absolute")
+                throw std::runtime_error(
+                    fmt::format("--specular-by-gradient: '{}' will not do; give relative or absolute", text));
+            material.specularByGradient = text == "relative" ? GradientSpecular::Relative : GradientSpecular::Absolute;
+        });
+}
+
 }  // namespace
 
 void addLightOptions(CLI::App& command, shading::ShadingSettings& settings) {
@@ -102,20 +118,30 @@ void addLightOptions(CLI::App& command, shading::ShadingSettings& settings) {
                       "specular exponent, 32");
     command.add_flag_callback(
         "--no-transmission", [&settings] { settings.transmission = false; }, "no light through the layers");
-    addParsed(command, "--reflectance", settings.reflectance, projection::reflectanceOf,
-              "how highlights are formed: phong, blinn-phong, ward and lafortune (stretched along the field's fibres), "
-              "henyey-greenstein (a phase function)",
-              "NAME");
+    command
+        .add_option_function<std::string>(
+            "--reflectance",
+            [&settings](const std::string& name) { projection::setReflectance("--reflectance", name, settings); },
+            "how highlights are formed: phong, blinn-phong, ward and lafortune (stretched along the field's fibres), none; "
+            "henyey-greenstein: none, and a phase function")
+        ->type_name("NAME");
+    command
+        .add_option_function<double>(
+            "--phase-asymmetry",
+            [&settings](double asymmetry) {
+                projection::setPhaseAsymmetry("--phase-asymmetry", asymmetry, settings.material);
+            },
+            "diffuse light by Henyey and Greenstein's phase function with this g, from -1 (back) to 1 (onward)")
+        ->type_name("G");
     addParsed(command, "--normals", settings.normals, projection::normalsOf,
               "cell: each cell's own; smooth: from gradients at the vertices", "NAME");
     command
         .add_option_function<std::string>(
             "--anisotropy", [&settings](const std::string& text) { setAnisotropy(text, settings.anisotropy); },
             "for ward and lafortune: radius=4 (edge lengths), interval=0.05 (of the range), samples=4 (per cell), "
-            "smoothing=0, kappa (an eighth of the exponent), gamma=10")
+            "smoothing=0, kappa (ward: roughness, 0.2; lafortune: the exponent), gamma=10")
         ->type_name("KEY=VALUE,...");
-    command.add_flag("--specular-by-gradient", settings.material.specularByGradient,
-                     "highlights as strong as the gradient of extinction: only where it rises do things shine");
+    addSpecularByGradient(command, settings.material);
     command.add_flag("--shadows", settings.shadows.on, "volume and surfaces cast shadows");
     command.add_option_function<double>(
         "--soft-shadows",

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -67,6 +68,17 @@ void addPictureOptions(CLI::App& command, RenderOptions& options) {
 
 void addLight(CLI::App& command, RenderOptions& options) {
     addLightOptions(command, options.settings.shading);
+    command
+        .add_option_function<std::string>(
+            "--keep-anisotropy",
+            [&options](const std::string& path) {
+                if (std::filesystem::path(path).extension() != ".vtu")
+                    throw std::runtime_error(
+                        fmt::format("--keep-anisotropy: '{}' does not end in .vtu; give a name that does", path));
+                options.keptAnisotropy = path;
+            },
+            "also write the mesh with its anisotropy, which render then takes up instead of computing it")
+        ->type_name("FILE.vtu");
 }
 
 void addShape(CLI::App& command, RenderOptions& options) {

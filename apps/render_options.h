@@ -46,6 +46,7 @@ struct RenderOptions {
     std::optional<std::optional<glm::vec3>> background;  ///< not given: what suits the mode
     int verifiedPixels = 0;          ///< so many pixels of each frame are computed again by the reference
     std::optional<double> maxError;  ///< largest rmse that may be found so, its 95 % bound that is
+    std::string keptAnisotropy;      ///< .vtu that the mesh is written to with its anisotropy; empty: none
     std::string report;              ///< JSON file; empty: none
     bool quiet = false;
 };

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <apps/kept_anisotropy.h>
 #include <apps/stopwatch.h>
 #include <mesh/io/read_mesh.h>
 #include <mesh/tet/interface_checks.h>
@@ -19,6 +20,7 @@
 #include <preint/transfer_function.h>
 #include <projection/frame/engine_registry.h>
 #include <projection/frame/suggested_extinction.h>
+#include <projection/light/light_frame.h>
 #include <projection/opaque/opaque_layer.h>
 
 namespace tetralux::apps {
@@ -89,10 +91,12 @@ void SceneRenderer::readScene(const RenderOptions& options) {
     const Stopwatch watch;
     mesh::ReadResult source = mesh::readMesh(options.source, options.read);
     record_.mesh = std::move(source.report);
+    KeptAnisotropy anisotropy(options, source.mesh);
     try {
         mesh::ScalarSelection selection = mesh::selectScalar(std::move(source.mesh), options.scalar, record_.mesh);
         record_.fieldName = selection.fieldName;
         scene_.mesh = std::make_shared<const mesh::ScalarMesh>(std::move(selection.mesh));
+        anisotropy.find(*scene_.mesh, record_.fieldName);
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(fmt::format("{}: {}", options.source, error.what()));
     }
@@ -123,6 +127,8 @@ void SceneRenderer::readScene(const RenderOptions& options) {
             options.shape.cutLayer.value_or(projection::cutLayerShare * scene_.mesh->bounds.diagonal())));
     for (const projection::OpaqueSurface& surface : opaque.surfaces) scene_.shadowCasters.push_back(surface.mesh);
     if (!opaque.empty()) scene_.mapSources.push_back(std::make_shared<const projection::OpaqueLayer>(scene_, opaque));
+    if (anisotropy.tensors() && scene_.settings.shading.needsAnisotropy())
+        scene_ = projection::withVertexLight(std::move(scene_), anisotropy.tensors());
 }
 
 /// Up to so many tetrahedra and boundary faces it takes some 30 ms; a generated grid is known to fit together.

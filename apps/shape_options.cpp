@@ -5,6 +5,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -224,11 +226,14 @@ void finishShapeOptions(const ShapeOptions& options, projection::RenderSettings&
 }
 
 std::vector<std::string> joinedOptionalValues(int argumentCount, char** arguments) {
+    static const std::map<std::string, std::set<std::string>> optionalValues{
+        {"--silhouette", {"exact", "approximate"}}, {"--specular-by-gradient", {"relative", "absolute"}}};
     std::vector<std::string> words;
     for (int i = 0; i < argumentCount; ++i) {
         words.emplace_back(arguments[i]);
         const std::string next = i + 1 < argumentCount ? arguments[i + 1] : "";
-        if (words.back() == "--silhouette" && (next == "exact" || next == "approximate")) {
+        const auto values = optionalValues.find(words.back());
+        if (values != optionalValues.end() && values->second.contains(next)) {
             words.back() += "=" + next;
             ++i;
         }

@@ -52,6 +52,31 @@ Tensor inTangentPlane(const PointMoments& moments, const glm::dvec3& normal) {
     return tensorOf(across * matrix * across / moments.weight);
 }
 
+/// (λ₂ − λ₁)/(λ₂ + λ₁) of level sets without a direction, as large as filling points may make it by chance: they fill cells
+/// evenly, so that errors fall with their number, where those of random points would with its root.
+double chance(const PointMoments& moments) {
+    constexpr double perPoint = 6.0;
+    return moments.squares > 0 ? std::min(perPoint * moments.squares / (moments.weight * moments.weight), 1.0) : 0.0;
+}
+
+/// The tensor with what chance may have made of its anisotropy taken out: none is left below it, and half a thousandth
+/// less where it is thirty times as much.
+Tensor withoutChance(const Tensor& tensor, const glm::dvec3& normal, double chance) {
+    const double half = 0.5 * (tensor[0] + tensor[1] + tensor[2]);
+    Tensor round{};
+    for (std::size_t i = 0; i < 3; ++i) round[i] = half * (1 - normal[static_cast<int>(i)] * normal[static_cast<int>(i)]);
+    round[3] = -half * normal.x * normal.y;
+    round[4] = -half * normal.x * normal.z;
+    round[5] = -half * normal.y * normal.z;
+    double square = 0;
+    for (std::size_t i = 0; i < 6; ++i) square += (i < 3 ? 1 : 2) * std::pow(tensor[i] - round[i], 2);
+    const double found = half > 0 ? std::sqrt(0.5 * square) / half : 0;
+    const double share = found > chance ? 1 - std::pow(chance / found, 2) : 0.0;
+    Tensor result;
+    for (std::size_t i = 0; i < 6; ++i) result[i] = round[i] + share * (tensor[i] - round[i]);
+    return result;
+}
+
 /// Radii: where the scalars that count fill more of the ball its level sets are taken to be flat.
 constexpr double thickest = 0.5;
 
@@ -63,9 +88,10 @@ struct Surroundings {
     double perRadius;  ///< intervals per radius, for a gradient of one range per diagonal
 };
 
-/// Of a point near the border: `found` as it would be if the mesh went on.
-Tensor completedAt(const Surroundings& around, mesh::PointIndex point, const glm::dvec3& gradient,
-                   const Tensor& found) {
+/// Of a point near the border: `found` as it would be if the mesh went on. Where the level set bends by so little that
+/// its anisotropy is within `chance` it is round, whatever is seen of it.
+Tensor completedAt(const Surroundings& around, mesh::PointIndex point, const glm::dvec3& gradient, const Tensor& found,
+                   double chance) {
     const glm::dvec3& place = around.mesh.positions[point];
     const double magnitude = glm::length(gradient), slope = magnitude * around.perRadius;
     BentDisc disc;
@@ -78,6 +104,9 @@ Tensor completedAt(const Surroundings& around, mesh::PointIndex point, const glm
         disc.xx = bend.xx;
         disc.yy = bend.yy;
         disc.xy = bend.xy;
+        const double most = std::max({std::abs(bend.xx), std::abs(bend.yy), std::abs(bend.xy)});
+        constexpr double perBend = 0.03;  // of a cylinder whose radius is 1/bend of the neighbourhood's, up to 1
+        if (perBend * most * most < chance) return withoutChance(found, disc.z, 1.0);
     }
     const std::optional<SeenDisc> seen = around.border.cut(place, point, disc);
     if (!seen) return found;
@@ -124,10 +153,14 @@ std::vector<Tensor> levelSetTensors(const mesh::ScalarMesh& mesh, const std::vec
             const double magnitude = glm::length(gradients[point]);
             if (!(magnitude > 0)) continue;
             const PointMoments moments = points.near(mesh.positions[point], mesh.scalars[point]);
-            tensors[point] = inTangentPlane(moments, gradients[point] / magnitude);
-            if (moments.weight > 0 && border.isNear(mesh.positions[point]))
-                tensors[point] =
-                    completedAt(around, static_cast<mesh::PointIndex>(point), gradients[point], tensors[point]);
+            const glm::dvec3 normal = gradients[point] / magnitude;
+            Tensor& tensor = tensors[point];
+            tensor = inTangentPlane(moments, normal);
+            if (!(moments.weight > 0)) continue;
+            const double leeway = chance(moments);
+            if (border.isNear(mesh.positions[point]))
+                tensor = completedAt(around, static_cast<mesh::PointIndex>(point), gradients[point], tensor, leeway);
+            tensor = withoutChance(tensor, normal, leeway);
         }
     });
     for (int i = 0; i < settings.smoothing; ++i) tensors = smoothed(mesh, tensors);

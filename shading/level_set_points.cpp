@@ -172,13 +172,14 @@ inline PointMoments LevelSetPoints::nearHere(const glm::dvec3& centre, double sc
     forRuns<false>(centre, scalar, 1.0f, [&](const Run& run) {
         const float *xs = x_.data() + run.first, *ys = y_.data() + run.first, *zs = z_.data() + run.first;
         const float *scalars = scalars_.data() + run.first, *areas = areas_.data() + run.first;
-        float weight = 0, xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
-#pragma omp simd reduction(+ : weight, xx, yy, zz, xy, xz, yz)
+        float weight = 0, squares = 0, xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
+#pragma omp simd reduction(+ : weight, squares, xx, yy, zz, xy, xz, yz)
         for (std::size_t i = 0; i < run.count; ++i) {
             const float x = xs[i] - run.x, y = ys[i] - run.y, z = zs[i] - run.z, apart = scalars[i] - run.scalar;
             const float inside = 1.0f - (x * x + y * y + z * z), alike = 1.0f - apart * apart;
             const float w = areas[i] * (inside > 0.0f ? inside : 0.0f) * (alike > 0.0f ? alike : 0.0f);
             weight += w;
+            squares += w * w;
             xx += w * x * x;
             yy += w * y * y;
             zz += w * z * z;
@@ -187,6 +188,7 @@ inline PointMoments LevelSetPoints::nearHere(const glm::dvec3& centre, double sc
             yz += w * y * z;
         }
         sums.weight += static_cast<double>(weight);
+        sums.squares += static_cast<double>(squares);
         sums.xx += static_cast<double>(xx);
         sums.yy += static_cast<double>(yy);
         sums.zz += static_cast<double>(zz);

@@ -22,7 +22,7 @@ std::vector<std::array<double, 4>> fillingPoints(int count);
 
 /// Sums over points of weight w with offset (x, y, z) from a centre, both pure numbers.
 struct PointMoments {
-    double weight = 0;                                      ///< Σ w
+    double weight = 0, squares = 0;                         ///< Σ w, Σ w²
     double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;  ///< Σ w·x·x …
 };
 

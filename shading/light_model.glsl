@@ -9,11 +9,12 @@
 //   Ward, "Measuring and Modeling Anisotropic Reflection", SIGGRAPH 1992; Lafortune et al., "Non-Linear Approximation of Reflectance
 //   Functions", SIGGRAPH 1997; Henyey & Greenstein, "Diffuse Radiation in the Galaxy", 1941
 //
-// All lobes are 1 at their largest where isotropic (the phase function: 1 on average), so that intensities mean the same for each.
+// Lobes are 1 at their largest, but for Ward's, which has the norm of his Equation 5a; phase functions are 1 on average over all directions.
 
-// What holds for the whole picture. `kind`: 0 Phong, 1 Blinn–Phong, 2 Ward, 3 Lafortune, 4 Henyey–Greenstein.
+// What holds for the whole picture. `kind` of highlight: 0 Phong, 1 Blinn–Phong, 2 Ward, 3 Lafortune, 4 none. `phase`: 1 where the diffuse
+// part is Henyey–Greenstein's phase function.
 struct LightModel {
-    int kind;
+    int kind, phase;
     vec3 frontSpecular, backSpecular;  // C_spec where n points to the eye, and away
     real frontExponent, backExponent;
     real diffuse, specular, diffuseThrough, specularThrough;
@@ -29,7 +30,6 @@ struct LitPoint {
     vec3 tangent, bitangent;  // unit, with the normal a frame; for anisotropic lobes only, like what follows
     vec3 major;               // x, y: cosine and sine of twice the angle from the tangent to the major direction (0, 0: none)
     real along, across;       // the lobe's u and v
-    real height;              // Ward: how much brighter the lobe is in its middle for being narrower than an isotropic one
 };
 
 // Any unit vector across n (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
@@ -44,11 +44,18 @@ TETRALUX_GLSL_FUNCTION vec3 bitangentOf(vec3 n) {
     return vec3(n.x * n.y * a, turn + n.y * n.y * a, -n.y);
 }
 
-// λ₂/λ₁ ≥ 1, larger over smaller, is bounded by this: a level set without width has no direction to be trusted either.
+// λ₂/λ₁ ≥ 1, larger over smaller, is bounded by one over this: a level set without width has no direction to be trusted either.
 TETRALUX_GLSL_FUNCTION real leastEigenvalueShare() { return real(1e-3); }
 
+// Ward's u is at most this, or κ where κ is more: at 10 the highlight is half as bright as in its middle where the half-way vector leans 69° along
+// the fibre. A larger u would draw it out no farther, only make it dimmer.
+TETRALUX_GLSL_FUNCTION real largestRoughness() { return real(10.0); }
+
+// (n·l)(n·v) in Ward's norm is at least this, so that 1/√((n·l)(n·v)) ≤ 100 towards silhouettes.
+TETRALUX_GLSL_FUNCTION real leastGrazing() { return real(1e-4); }
+
 // Sets tangent, bitangent, major and the lobe's u and v from the tensor (symmetric: xx, yy, zz and xy, xz, yz) restricted to the tangent
-// plane. u belongs to the major direction, along which the level set extends farther: a fibre's highlight is narrow along it.
+// plane. u belongs to the major direction, along which the level set extends farther: a fibre's highlight is drawn out along it.
 TETRALUX_GLSL_FUNCTION void setAnisotropy(LightModel model, vec3 diagonal, vec3 others, TETRALUX_GLSL_INOUT(LitPoint) point) {
     vec3 t = tangentOf(point.normal), b = bitangentOf(point.normal);
     vec3 ct = vec3(diagonal.x * t.x + others.x * t.y + others.y * t.z, others.x * t.x + diagonal.y * t.y + others.z * t.z,
@@ -60,21 +67,20 @@ TETRALUX_GLSL_FUNCTION void setAnisotropy(LightModel model, vec3 diagonal, vec3 
     real mixed = dot(b, ct);
     real root = sqrt(difference * difference + mixed * mixed);
     real inverse = real(1.0) / max(root, real(1e-12));
-    real least = leastEigenvalueShare() * mean + real(1e-9);
-    real ratio = (mean + root + least) / (max(mean - root, real(0.0)) + least);
+    real wide = max(mean + root, real(0.0));
+    real narrow = max(mean - root, leastEigenvalueShare() * wide);
+    real ratio = (wide + real(1e-9)) / (narrow + real(1e-9));
     point.tangent = t;
     point.bitangent = b;
     point.major = vec3(difference * inverse, mixed * inverse, real(0.0));
-    // u of Ward grows to κ·e⁶ at most: what is narrower would glitter from pixel to pixel
-    real narrowing = exp(real(0.5) * min(model.gamma * log(ratio), real(6.0)));
-    point.height = narrowing;
-    real ward = model.kappa * narrowing * narrowing;
-    real lafortune = real(1.0) - real(2.0) * exp(model.gamma * (real(1.0) - ratio));
     if (model.kind == 2) {
-        point.along = ward;
+        // Equations 32, 33
+        real most = log(max(largestRoughness() / model.kappa, real(1.0)));
+        point.along = model.kappa * exp(min(model.gamma * log(ratio), most));
         point.across = model.kappa;
     } else {
-        point.along = lafortune;
+        // Equations 34, 35
+        point.along = real(1.0) - real(2.0) * exp(model.gamma * (real(1.0) - ratio));
         point.across = real(-1.0);
     }
 }
@@ -88,18 +94,23 @@ TETRALUX_GLSL_FUNCTION real majorProduct(LitPoint point, vec3 a, vec3 b) {
     return real(0.5) * (whole + point.major.x * straight + point.major.y * crossed);
 }
 
-// Gaussian in the slopes of the half-way vector (Ward's Equation 5a, its normalization √(uv)/π over that of an isotropic lobe, κ/π):
-// √(u/κ)·exp(−tan²θ(u cos²φ + v sin²φ)). The light that a fibre's highlight does not send along it makes it brighter.
-TETRALUX_GLSL_FUNCTION real wardLobe(LitPoint point, vec3 halfway) {
+TETRALUX_GLSL_FUNCTION vec3 halfwayVector(LitPoint point, vec3 light) {
+    vec3 halfway = light + point.view;
+    return halfway * (real(1.0) / sqrt(max(dot(halfway, halfway), real(1e-12))));
+}
+
+// f_s of Equations 9 to 11: exp(−((H·U)²/u + (H·V)²/v)/(H·n)²)/(4π√(uv(n·l)(n·v))).
+TETRALUX_GLSL_FUNCTION real wardLobe(LitPoint point, vec3 light) {
+    vec3 halfway = halfwayVector(point, light);
     real facing = point.side * dot(halfway, point.normal);
     real along = majorProduct(point, halfway, halfway);
     real across = max(dot(halfway, halfway) - facing * facing - along, real(0.0));
-    real slopes = (point.along * along + point.across * across) / max(facing * facing, real(1e-4));
-    return select(facing > real(0.0), point.height * exp(-min(slopes, real(80.0))), real(0.0));
+    real slopes = (along / point.along + across / point.across) / max(facing * facing, real(1e-4));
+    real grazing = max(abs(dot(light, point.normal) * dot(point.view, point.normal)), leastGrazing());
+    return real(0.0795774715) * exp(-min(slopes, real(80.0))) / sqrt(point.along * point.across * grazing);
 }
 
-// (u·l₂v₂ + v·l₁v₁ + l_n v_n)^exponent; u = v = −1 is Phong. With a quarter of Blinn and Phong's exponent a lobe about the mirrored
-// direction is as wide as theirs about the half-way vector: cos(2θ)^(n/4) = cosⁿθ·(1 + O(θ⁴)).
+// f_s of Equation 12 with n_l = 1; u = v = −1 is Phong.
 TETRALUX_GLSL_FUNCTION real lafortuneLobe(LitPoint point, vec3 light, real exponent) {
     real normal = dot(light, point.normal) * dot(point.view, point.normal);
     real along = majorProduct(point, light, point.view);
@@ -114,41 +125,39 @@ TETRALUX_GLSL_FUNCTION real phaseFunction(real asymmetry, real cosine) {
     return (real(1.0) - square) / (base * sqrt(base));
 }
 
-TETRALUX_GLSL_FUNCTION vec3 halfwayVector(LitPoint point, vec3 light) {
-    vec3 halfway = light + point.view;
-    return halfway * (real(1.0) / sqrt(max(dot(halfway, halfway), real(1e-12))));
-}
-
 // What Phong's or Blinn and Phong's lobe is a power of.
 TETRALUX_GLSL_FUNCTION real lobeCosine(LightModel model, LitPoint point, vec3 light) {
     if (model.kind == 1) return point.side * dot(halfwayVector(point, light), point.normal);
     return real(2.0) * dot(light, point.normal) * dot(point.view, point.normal) - dot(light, point.view);
 }
 
-// What one light adds to a segment per unit of α and of the light's colour (Equation 19, one term of the sum). Light that goes through
-// stands about −l with any lobe and has the material's colour.
+TETRALUX_GLSL_FUNCTION real highlight(LightModel model, LitPoint point, vec3 light, real exponent) {
+    if (model.kind == 2) return wardLobe(point, light);
+    if (model.kind == 3) return lafortuneLobe(point, light, exponent);
+    return pow(max(lobeCosine(model, point, light), real(0.0)), exponent);
+}
+
+// What one light adds to a segment per unit of α and of the light's colour: of Ward's and Lafortune's highlights, and of any beside a phase
+// function, k_d f_d + k_s f_s (l·n)₊ (Ament & Dachsbacher 2015, Equation 4), where n is turned to the eye; else one term of Kraus's Equation 19,
+// whose specular transmission stands about −l and has the material's colour. f_d is the phase function, or Equation 19's diffuse light.
 TETRALUX_GLSL_FUNCTION vec3 modelTerm(LightModel model, LitPoint point, vec3 diffuseColor, vec3 light) {
-    if (model.kind == 4) return phaseFunction(model.asymmetry, -dot(light, point.view)) * diffuseColor;
-    real lightSide = dot(light, point.normal);
+    real lightSide = dot(light, point.normal), straight = -dot(light, point.view);
     real facing = lightSide * point.side;
+    real through = select(facing < real(0.0), real(1.0) - point.opacity, real(0.0));
+    real diffuse = abs(lightSide) * select(facing > real(0.0), model.diffuse, model.diffuseThrough * through);
+    if (model.phase == 1) diffuse = model.diffuse * phaseFunction(model.asymmetry, straight);
+    if (model.kind == 4) return diffuse * diffuseColor;
     vec3 sideSpecular = select(point.side > real(0.0), model.frontSpecular, model.backSpecular);
     real sideExponent = select(point.side > real(0.0), model.frontExponent, model.backExponent);
+    if (model.kind > 1 || model.phase == 1) {
+        real lobe = highlight(model, point, light, sideExponent) * (model.specular * abs(lightSide));
+        return diffuse * diffuseColor + select(facing > real(0.0), lobe, real(0.0)) * sideSpecular;
+    }
     vec3 specular = select(facing > real(0.0), sideSpecular, diffuseColor);
     real exponent = select(facing > real(0.0), sideExponent, real(0.5) * (model.frontExponent + model.backExponent));
-    real through = select(facing < real(0.0), real(1.0) - point.opacity, real(0.0));
-    real diffuseWeight = select(facing > real(0.0), model.diffuse, model.diffuseThrough * through);
-    real specularWeight = select(facing > real(0.0), model.specular, model.specularThrough * through);
-    real straight = -dot(light, point.view);
-    real lobe;
-    if (model.kind < 2) {
-        lobe = pow(max(select(facing > real(0.0), lobeCosine(model, point, light), straight), real(0.0)), exponent);
-    } else {
-        real reflected = real(0.0);
-        if (model.kind == 2) reflected = wardLobe(point, halfwayVector(point, light));
-        if (model.kind == 3) reflected = lafortuneLobe(point, light, real(0.25) * exponent);
-        lobe = select(facing > real(0.0), reflected, pow(max(straight, real(0.0)), exponent));
-    }
-    return (diffuseWeight * abs(lightSide)) * diffuseColor + (specularWeight * lobe) * specular;
+    real weight = select(facing > real(0.0), model.specular, model.specularThrough * through);
+    real cosine = select(facing > real(0.0), lobeCosine(model, point, light), straight);
+    return diffuse * diffuseColor + (weight * pow(max(cosine, real(0.0)), exponent)) * specular;
 }
 
 // Share of a light that is left at a distance; `fade`: constant, per length, per length squared.

@@ -17,7 +17,8 @@ bool isPlain(const MaterialSide& side) {
 
 bool isPlain(const Material& material) {
     return material.diffuse == 1 && material.specular == 1 && material.diffuseTransmission == 1 &&
-           material.specularTransmission == 1 && !material.specularByGradient && isPlain(material.front) &&
+           material.specularTransmission == 1 && !material.phaseAsymmetry &&
+           material.specularByGradient == GradientSpecular::Off && isPlain(material.front) &&
            isPlain(material.back);
 }
 

@@ -23,15 +23,16 @@ struct Light {
     glm::dvec3 attenuation{1, 0, 0};  ///< constant, per mesh unit, per mesh unit squared
 };
 
-/// How the highlight is formed. Light from the far side of a segment (transmission) has a lobe about the direction in
-/// which it goes straight on, in the material's colour, whatever the reflectance.
+/// How the highlight f_s is formed (H: half-way vector; U, V: along and across a fibre of the field). Ward's and
+/// Lafortune's, and any beside a phase function (Material::phaseAsymmetry), count times the cosine (l·n)₊ with n
+/// turned to the eye (Ament & Dachsbacher 2015, Equation 4), and take the place of specular transmission; Phong's and
+/// Blinn and Phong's are otherwise the third term of Kraus's Equation 19, whose fifth is the same for both.
 enum class Reflectance {
     Phong,       ///< about 2n(n·l) − l
-    BlinnPhong,  ///< half-way vector about n
-    Ward,  ///< exponents κ(λ₂/λ₁)^γ along the major direction and κ across it (Ament & Dachsbacher 2015), normalized
-    Lafortune,  ///< u = 2(1 − exp(γ(1 − λ₂/λ₁))) − 1 along it, v = −1 across, 1 along n; as wide as Blinn–Phong:
-                ///< exponent/4
-    HenyeyGreenstein  ///< phase function instead of diffuse and specular light; needs no gradient
+    BlinnPhong,  ///< (n·H)^exponent
+    Ward,        ///< roughness u = κ(λ₂/λ₁)^γ along U and v = κ along V, normalized; u ≤ max(κ, 10), 1/√((n·l)(n·v)) ≤ 100
+    Lafortune,   ///< (u·l_U·v_U − l_V·v_V + l_n·v_n)₊^exponent, u = 2(1 − exp(γ(1 − λ₂/λ₁))) − 1
+    None         ///< no highlights and no specular transmission
 };
 
 /// Whose normal is lit; silhouettes and the side of a segment are those of the cell's gradient in any case.
@@ -46,15 +47,23 @@ struct MaterialSide {
     std::optional<double> exponent;  ///< nothing: ShadingSettings::exponent
 };
 
+/// k_s = |∇τ| in the place of Material::specular (Ament & Dachsbacher 2015, Equation 6), and times
+/// specularTransmission: only what looks like a surface shines. ∇τ is fitted at the vertices; isosurfaces have no part
+/// in it.
+enum class GradientSpecular {
+    Off,
+    Relative,  ///< over its largest; 1 where extinction is the same everywhere
+    Absolute   ///< extinction per mesh unit
+};
+
 struct Material {
     double diffuse = 1, specular = 1;                          ///< factors of reflection
     double diffuseTransmission = 1, specularTransmission = 1;  ///< factors of transmission
     MaterialSide front, back;                                  ///< transmission takes their mean exponent
-    double phaseAsymmetry = 0.3;                               ///< Henyey–Greenstein's g, −1 … 1
-    /// k_s = |∇τ| (Ament & Dachsbacher 2015): both specular factors times the magnitude of extinction's gradient at the
-    /// vertices over its largest, so that only what looks like a surface shines. Isosurfaces do not count; 1 where
-    /// extinction is the same everywhere.
-    bool specularByGradient = false;
+    /// Henyey–Greenstein's g, −1 … 1: 4π times that phase function takes the place of diffuse reflection and
+    /// transmission, also where there is no gradient. Nothing: Equation 19's diffuse light.
+    std::optional<double> phaseAsymmetry;
+    GradientSpecular specularByGradient = GradientSpecular::Off;
 };
 
 /// Anisotropy of the field's level sets about each vertex (shading/anisotropy.h), and what lobes make of it.
@@ -63,11 +72,10 @@ struct AnisotropySettings {
     double interval = 0.05;  ///< half-width in scalar, as a share of the field's range
     int samples = 4;         ///< points that stand for one cell
     int smoothing = 0;       ///< how often tensors are averaged with those of neighbouring vertices
-    /// κ: exponent of an isotropic Ward lobe, and across fibres of any. Nothing: ShadingSettings::exponent/8, a
-    /// quarter of what makes that lobe Blinn and Phong's (exp(−n/2·tan²θ) = cosⁿθ·(1 + O(θ⁴))): across a fibre a
-    /// highlight reaches twice as far as theirs, along it less far from (λ₂/λ₁)^γ = 4 on. That is what draws it out.
+    /// κ: roughness of an isotropic Ward lobe, and across fibres of any; exponent of Lafortune's. Nothing: 0.2, and the
+    /// exponent of the material's side.
     std::optional<double> kappa;
-    double gamma = 10.0;  ///< γ: how strongly anisotropy counts
+    double gamma = 10.0;  ///< γ: how strongly anisotropy counts; 0: not at all
 };
 
 struct ShadowSettings {
@@ -102,7 +110,12 @@ struct ShadingSettings {
     std::optional<DepthColor> depthColor;
 
     bool lit() const { return !lights.empty(); }
-    double wardExponent() const { return anisotropy.kappa.value_or(exponent / 8); }  ///< κ
+    double wardRoughness() const { return anisotropy.kappa.value_or(0.2); }  ///< κ
+    /// Of a side's highlight.
+    double exponentOf(const MaterialSide& side) const {
+        const double own = side.exponent.value_or(exponent);
+        return reflectance == Reflectance::Lafortune ? anisotropy.kappa.value_or(own) : own;
+    }
     /// Whether segments are shaded one by one.
     bool needsGradient() const { return silhouette || gradientOpacity > 0 || lit() || depthColor.has_value(); }
     bool needsAnisotropy() const {

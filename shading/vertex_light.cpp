@@ -4,12 +4,17 @@
 #include <algorithm>
 
 #include <mesh/tet/point_cells.h>
-#include <shading/anisotropy.h>
 #include <shading/vertex_gradients.h>
 
 namespace tetralux::shading {
 
-VertexLight vertexLight(const mesh::ScalarMesh& mesh, const ShadingSettings& settings, bool sampled) {
+std::vector<Tensor> vertexTensors(const mesh::ScalarMesh& mesh, const AnisotropySettings& settings) {
+    const mesh::PointCells around(mesh.cells, mesh.positions.size());
+    return levelSetTensors(mesh, vertexGradients(mesh, around), settings);
+}
+
+VertexLight vertexLight(const mesh::ScalarMesh& mesh, const ShadingSettings& settings, bool sampled,
+                        const std::vector<Tensor>* kept) {
     VertexLight light;
     int floats = 0;
     const auto take = [&](int count) {
@@ -19,17 +24,18 @@ VertexLight vertexLight(const mesh::ScalarMesh& mesh, const ShadingSettings& set
     if (settings.lit() && settings.normals == Normals::Smooth) light.normalAt = take(3);
     if (settings.needsAnisotropy()) light.tensorAt = take(6);
     if (settings.needsShadows()) light.shadowAt = take(static_cast<int>(settings.lights.size()));
-    if (settings.lit() && settings.material.specularByGradient) light.specularAt = take(1);
+    if (settings.lit() && settings.material.specularByGradient != GradientSpecular::Off) light.specularAt = take(1);
     if (sampled) light.sampleAt = take(4);
     if (floats == 0) return light;
     light.stride = (floats + 3) / 4 * 4;
     light.values.assign(mesh.positions.size() * static_cast<std::size_t>(light.stride), 0.0f);
 
     std::vector<glm::dvec3> gradients;
-    if (light.normalAt >= 0 || light.tensorAt >= 0)
+    if (light.normalAt >= 0 || (light.tensorAt >= 0 && kept == nullptr))
         gradients = vertexGradients(mesh, mesh::PointCells(mesh.cells, mesh.positions.size()));
-    std::vector<Tensor> tensors;
-    if (light.tensorAt >= 0) tensors = levelSetTensors(mesh, gradients, settings.anisotropy);
+    std::vector<Tensor> computed;
+    if (light.tensorAt >= 0 && kept == nullptr) computed = levelSetTensors(mesh, gradients, settings.anisotropy);
+    const std::vector<Tensor>& tensors = kept != nullptr ? *kept : computed;
     for (std::size_t point = 0; point < mesh.positions.size(); ++point) {
         float* values = light.of(point);
         if (light.normalAt >= 0)

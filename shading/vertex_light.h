@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <mesh/tet/tet_mesh.h>
+#include <shading/anisotropy.h>
 #include <shading/lights.h>
 
 namespace tetralux::shading {
@@ -27,9 +28,13 @@ struct VertexLight {
     const float* of(std::size_t point) const { return values.data() + point * static_cast<std::size_t>(stride); }
 };
 
-/// The attributes that `settings` need, and samples if they are `sampled`. What takes a transfer function is left for
+/// The attributes that `settings` need, and samples if they are `sampled`; the anisotropy is `kept`, or else computed. What takes a transfer function is left for
 /// others to set (projection/light/light_shadows.h, projection/light/vertex_samples.h): shadows and specular factors
 /// are 1.
-VertexLight vertexLight(const mesh::ScalarMesh& mesh, const ShadingSettings& settings, bool sampled);
+VertexLight vertexLight(const mesh::ScalarMesh& mesh, const ShadingSettings& settings, bool sampled,
+                        const std::vector<Tensor>* kept = nullptr);
+
+/// What that computes; `mesh` alone decides it.
+std::vector<Tensor> vertexTensors(const mesh::ScalarMesh& mesh, const AnisotropySettings& settings);
 
 }  // namespace tetralux::shading

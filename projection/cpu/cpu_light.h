@@ -83,6 +83,7 @@ HWY_INLINE vec3 vectorAt(const float* const (&values)[4], int place, const real 
 HWY_INLINE LightModel broadcastModel(const LightModelFloats& floats) {
     LightModel model;
     model.kind = floats.kind;
+    model.phase = floats.phase;
     model.frontSpecular = broadcast(floats.frontSpecular);
     model.backSpecular = broadcast(floats.backSpecular);
     model.frontExponent = real(floats.frontExponent);
@@ -122,7 +123,7 @@ inline HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& ba
     const shading::VertexLight& kept = *frame.vertexLight;
     const vec3 ambient = broadcast(frame.lightModel.ambient);
     const vec3 dark(ambient.x * segment.color.x, ambient.y * segment.color.y, ambient.z * segment.color.z);
-    if (!(batch.gradient[j] > 0) && kept.normalAt < 0 && model.kind != 4 && segment.cut == nullptr) return dark;
+    if (!(batch.gradient[j] > 0) && kept.normalAt < 0 && model.phase == 0 && segment.cut == nullptr) return dark;
 
     const float* values[4] = {};
     real weights[4];
@@ -132,24 +133,25 @@ inline HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& ba
     }
     if (kept.specularAt >= 0) {
         const real factor = attributeAt(values, kept.specularAt, weights);
-        model.specular = model.specular * factor;
+        model.specular = factor;
         model.specularThrough = model.specularThrough * factor;
     }
     LitPoint point;
     point.view = worldFromCamera(frame, -segment.towards);
     point.side = segment.side;
     point.opacity = segment.opacity;
-    mask lit = real(0.0f) < real(1.0f);
     if (segment.cut != nullptr) {
         point.normal = worldFromCamera(frame, *segment.cut);
     } else if (kept.normalAt >= 0) {
         const vec3 gradient = vectorAt(values, kept.normalAt, weights);
         const real square = dot(gradient, gradient);
-        lit = square > real(1e-30f);
-        point.normal = real(1.0f) / sqrt(max(square, real(1e-30f))) * gradient;
-    } else {
+        const real inverse = keep(square > real(1e-30f), real(1.0f) / sqrt(max(square, real(1e-30f))));
+        point.normal = inverse * gradient;
+    } else if (batch.gradient[j] > 0) {
         point.normal =
             worldFromCamera(frame, vec3(real(batch.normal[0][j]), real(batch.normal[1][j]), real(batch.normal[2][j])));
+    } else {
+        point.normal = vec3(real(0.0f));
     }
     if (kept.tensorAt >= 0)
         setAnisotropy(model, vectorAt(values, kept.tensorAt, weights), vectorAt(values, kept.tensorAt + 3, weights),
@@ -163,7 +165,7 @@ inline HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& ba
         const vec3 term = modelTerm(model, point, segment.color, towards);
         light = light + vec3(color.x * term.x, color.y * term.y, color.z * term.z);
     }
-    return model.kind == 4 ? light : select(lit, light, dark);
+    return light;
 }
 
 }  // namespace tetralux::projection::HWY_NAMESPACE

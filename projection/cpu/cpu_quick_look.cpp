@@ -18,7 +18,8 @@ bool lampsSuffice(const shading::ShadingSettings& settings) {
     const shading::MaterialSide &front = settings.material.front, &back = settings.material.back;
     return (settings.reflectance == Reflectance::Phong || settings.reflectance == Reflectance::BlinnPhong) &&
            settings.normals == shading::Normals::Cell && !settings.needsShadows() &&
-           !settings.material.specularByGradient && front.specular == back.specular && front.exponent == back.exponent;
+           !settings.material.phaseAsymmetry &&
+           settings.material.specularByGradient == shading::GradientSpecular::Off && front.specular == back.specular && front.exponent == back.exponent;
 }
 
 QuickLamp quickLamp(const FrameLight& light, const glm::vec3& specular, const TileFrame& frame) {

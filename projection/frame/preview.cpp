@@ -72,6 +72,7 @@ void PreviewRenderer::coarsen(const Camera& camera, double promisedMilliseconds,
         if (mesh->cells.empty()) return;
         Scene scene = scene_;
         scene.mesh = std::move(mesh);
+        scene.vertexLight.reset();  // of other points
         coarse_ = makeEngine(scene, options_);
         engine_ = coarse_.get();
         gridPoints_ = n;

@@ -105,6 +105,7 @@ GlDefines variant(const RenderSettings& settings, const shading::VertexLight& ve
     defines.set("TETRALUX_TENSOR_AT", vertexLight.tensorAt);
     defines.set("TETRALUX_SHADOW_AT", vertexLight.shadowAt);
     defines.set("TETRALUX_REFLECTANCE", static_cast<int>(shading.reflectance));
+    defines.set("TETRALUX_PHASE", shading.material.phaseAsymmetry.has_value());
     defines.set("TETRALUX_LENGTH", length);
     if (!looksUp) return defines;
     const glm::dvec2 zone = shaderZone(table->zones.front());

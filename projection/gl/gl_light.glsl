@@ -78,6 +78,7 @@ vec3 arriving(int i, vec3 view, out vec3 towards) {
 vec3 lightInFull(vec3 meanColor, float opacity, float side, vec3 view, vec4 gradient, bool cut) {
     LightModel model;
     model.kind = TETRALUX_REFLECTANCE;
+    model.phase = TETRALUX_PHASE;
     model.frontSpecular = specularOf[0];
     model.backSpecular = specularOf[1];
     model.frontExponent = exponentOf.x;
@@ -92,7 +93,7 @@ vec3 lightInFull(vec3 meanColor, float opacity, float side, vec3 view, vec4 grad
 
 #if TETRALUX_SPECULAR_AT >= 0
     float specularFactor = attributeAt(TETRALUX_SPECULAR_AT);
-    model.specular *= specularFactor;
+    model.specular = specularFactor;
     model.specularThrough *= specularFactor;
 #endif
 
@@ -108,7 +109,10 @@ vec3 lightInFull(vec3 meanColor, float opacity, float side, vec3 view, vec4 grad
         magnitude = magnitude > 1e-30 ? magnitude : 0.0;
     }
 #endif
-    if (TETRALUX_REFLECTANCE != 4 && !(magnitude > 0.0)) return light;
+    if (!(magnitude > 0.0)) {
+        if (TETRALUX_PHASE == 0) return light;
+        point.normal = vec3(0.0);
+    }
     point.view = view;
     point.side = side;
     point.opacity = opacity;

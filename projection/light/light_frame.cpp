@@ -15,17 +15,18 @@ LightModelFloats lightModelFloats(const shading::ShadingSettings& settings) {
     const float through = settings.transmission ? 1.0f : 0.0f;
     LightModelFloats model;
     model.kind = static_cast<int>(settings.reflectance);
+    model.phase = material.phaseAsymmetry ? 1 : 0;
     model.frontSpecular = glm::vec3(material.front.specular);
     model.backSpecular = glm::vec3(material.back.specular);
-    model.frontExponent = static_cast<float>(material.front.exponent.value_or(settings.exponent));
-    model.backExponent = static_cast<float>(material.back.exponent.value_or(settings.exponent));
+    model.frontExponent = static_cast<float>(settings.exponentOf(material.front));
+    model.backExponent = static_cast<float>(settings.exponentOf(material.back));
     model.diffuse = static_cast<float>(material.diffuse);
     model.specular = static_cast<float>(material.specular);
     model.diffuseThrough = through * static_cast<float>(material.diffuseTransmission);
     model.specularThrough = through * static_cast<float>(material.specularTransmission);
-    model.kappa = static_cast<float>(settings.wardExponent());
+    model.kappa = static_cast<float>(settings.wardRoughness());
     model.gamma = static_cast<float>(settings.anisotropy.gamma);
-    model.asymmetry = static_cast<float>(material.phaseAsymmetry);
+    model.asymmetry = static_cast<float>(material.phaseAsymmetry.value_or(0.0));
     model.ambient = glm::vec3(settings.ambient * settings.ambientColor);
     return model;
 }
@@ -49,17 +50,18 @@ std::vector<FrameLight> frameLights(const shading::ShadingSettings& settings, co
     return lights;
 }
 
-std::shared_ptr<const shading::VertexLight> vertexLightOf(const Scene& scene) {
+std::shared_ptr<const shading::VertexLight> vertexLightOf(const Scene& scene,
+                                                          const std::vector<shading::Tensor>* kept) {
     if (scene.vertexLight) return scene.vertexLight;
-    shading::VertexLight light = shading::vertexLight(*scene.mesh, scene.settings.shading, samplesVertices(scene));
+    shading::VertexLight light = shading::vertexLight(*scene.mesh, scene.settings.shading, samplesVertices(scene), kept);
     if (light.shadowAt >= 0) addShadows(scene, light);
     if (light.specularAt >= 0) addSpecularFactors(scene, light);
     if (light.sampleAt >= 0) addSamples(scene, light);
     return std::make_shared<const shading::VertexLight>(std::move(light));
 }
 
-Scene withVertexLight(Scene scene) {
-    scene.vertexLight = vertexLightOf(scene);
+Scene withVertexLight(Scene scene, const std::vector<shading::Tensor>* kept) {
+    scene.vertexLight = vertexLightOf(scene, kept);
     return scene;
 }
 

@@ -27,7 +27,7 @@ struct FrameLight {
 
 /// LightModel of shading/light_model.glsl, in float.
 struct LightModelFloats {
-    int kind = 0;
+    int kind = 0, phase = 0;
     glm::vec3 frontSpecular, backSpecular;
     float frontExponent, backExponent;
     float diffuse, specular, diffuseThrough, specularThrough;
@@ -39,10 +39,12 @@ LightModelFloats lightModelFloats(const shading::ShadingSettings& settings);
 std::vector<FrameLight> frameLights(const shading::ShadingSettings& settings, const SceneUnits& units,
                                     const CameraFrame& frame);
 
-/// What vertices carry for the scene's light: what the scene brings along, or else computed now.
-std::shared_ptr<const shading::VertexLight> vertexLightOf(const Scene& scene);
+/// What vertices carry for the scene's light: what the scene brings along, or else computed now, with anisotropy that
+/// was `kept`.
+std::shared_ptr<const shading::VertexLight> vertexLightOf(const Scene& scene,
+                                                          const std::vector<shading::Tensor>* kept = nullptr);
 
 /// The scene with that computed, so that several engines need not.
-Scene withVertexLight(Scene scene);
+Scene withVertexLight(Scene scene, const std::vector<shading::Tensor>* kept = nullptr);
 
 }  // namespace tetralux::projection

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <string_view>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -23,7 +24,9 @@ namespace {
 using preint::JsonPlace;
 using shading::Light;
 
-constexpr std::array reflectanceNames{"phong", "blinn-phong", "ward", "lafortune", "henyey-greenstein"};
+constexpr std::array reflectanceNames{"phong", "blinn-phong", "ward", "lafortune", "none", "henyey-greenstein"};
+constexpr std::string_view phaseAlone = "henyey-greenstein";
+constexpr double usualAsymmetry = 0.3;
 constexpr std::array normalsNames{"cell", "smooth"};
 
 /// Place of `name` among `names`.
@@ -102,6 +105,16 @@ void readSide(const JsonPlace& place, shading::MaterialSide& side) {
     ifThere(place, "exponent", [&](const JsonPlace& exponent) { side.exponent = notNegative(exponent); });
 }
 
+void readSpecularByGradient(const JsonPlace& place, shading::Material& material) {
+    using shading::GradientSpecular;
+    if (place.value().is_string()) {
+        if (place.text() != "absolute") place.fail("must be true, false or \"absolute\"");
+        material.specularByGradient = GradientSpecular::Absolute;
+    } else {
+        material.specularByGradient = place.boolean() ? GradientSpecular::Relative : GradientSpecular::Off;
+    }
+}
+
 void readMaterial(const JsonPlace& place, shading::Material& material) {
     requireObject(place, {"diffuse", "specular", "diffuse_transmission", "specular_transmission", "front", "back",
                           "phase_asymmetry", "specular_by_gradient"});
@@ -109,12 +122,12 @@ void readMaterial(const JsonPlace& place, shading::Material& material) {
     setFactor(place, "specular", material.specular);
     setFactor(place, "diffuse_transmission", material.diffuseTransmission);
     setFactor(place, "specular_transmission", material.specularTransmission);
-    ifThere(place, "specular_by_gradient", [&](const JsonPlace& on) { material.specularByGradient = on.boolean(); });
+    ifThere(place, "specular_by_gradient", [&](const JsonPlace& on) { readSpecularByGradient(on, material); });
     ifThere(place, "front", [&](const JsonPlace& side) { readSide(side, material.front); });
     ifThere(place, "back", [&](const JsonPlace& side) { readSide(side, material.back); });
     ifThere(place, "phase_asymmetry", [&](const JsonPlace& asymmetry) {
+        if (!(std::abs(asymmetry.number()) < 1)) asymmetry.fail("must lie between -1 and 1");
         material.phaseAsymmetry = asymmetry.number();
-        if (!(std::abs(material.phaseAsymmetry) < 1)) asymmetry.fail("must lie between -1 and 1");
     });
 }
 
@@ -147,7 +160,7 @@ void readDocument(const JsonPlace& document, const std::string& origin, shading:
     });
     ifThere(document, "material", [&](const JsonPlace& material) { readMaterial(material, settings.material); });
     ifThere(document, "reflectance", [&](const JsonPlace& name) {
-        settings.reflectance = reflectanceOf(origin + ": reflectance", name.text());
+        setReflectance(origin + ": reflectance", name.text(), settings);
     });
     ifThere(document, "normals",
             [&](const JsonPlace& name) { settings.normals = normalsOf(origin + ": normals", name.text()); });
@@ -161,8 +174,20 @@ void readDocument(const JsonPlace& document, const std::string& origin, shading:
 
 }  // namespace
 
-shading::Reflectance reflectanceOf(const std::string& what, const std::string& name) {
-    return static_cast<shading::Reflectance>(placeOf(reflectanceNames, what, name));
+void setReflectance(const std::string& what, const std::string& name, shading::ShadingSettings& settings) {
+    const int place = placeOf(reflectanceNames, what, name);
+    if (name == phaseAlone) {
+        settings.reflectance = shading::Reflectance::None;
+        if (!settings.material.phaseAsymmetry) settings.material.phaseAsymmetry = usualAsymmetry;
+    } else {
+        settings.reflectance = static_cast<shading::Reflectance>(place);
+    }
+}
+
+void setPhaseAsymmetry(const std::string& what, double asymmetry, shading::Material& material) {
+    if (!(std::abs(asymmetry) < 1))
+        throw std::runtime_error(fmt::format("{}: {} will not do; give a number between -1 and 1", what, asymmetry));
+    material.phaseAsymmetry = asymmetry;
 }
 
 shading::Normals normalsOf(const std::string& what, const std::string& name) {
@@ -184,7 +209,7 @@ void setAnisotropyParameter(const std::string& what, const std::string& key, dou
     if (key == "interval") return set(settings.interval, 1e-6, 1);
     if (key == "samples") return set(settings.samples, 1, 1000);
     if (key == "smoothing") return set(settings.smoothing, 0, 100);
-    if (key == "kappa") return set(settings.kappa, 0, 1e4);
+    if (key == "kappa") return set(settings.kappa, 1e-6, 1e4);
     if (key == "gamma") return set(settings.gamma, 0, 1e3);
     throw std::runtime_error(
         fmt::format("{}: there is no '{}'; take radius, interval, samples, smoothing, kappa or gamma", what, key));

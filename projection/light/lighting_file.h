@@ -8,10 +8,13 @@
 ///                 {"type": "head"}],
 ///      "material": {"diffuse": 1, "specular": 1, "diffuse_transmission": 1, "specular_transmission": 1,
 ///                   "front": {"specular": [r, g, b], "exponent": 32}, "back": {…}, "phase_asymmetry": 0.3,
-///                   "specular_by_gradient": false},
+///                   "specular_by_gradient": false, true or "absolute"},
 ///      "reflectance": "phong", "normals": "cell",
-///      "anisotropy": {"radius": 4, "interval": 0.05, "samples": 4, "smoothing": 0, "kappa": 16, "gamma": 10},
+///      "anisotropy": {"radius": 4, "interval": 0.05, "samples": 4, "smoothing": 0, "kappa": 0.2, "gamma": 10},
 ///      "shadows": true or {"softness": 0.1}}
+///
+/// "specular" of a side is C_spec, "specular" of the material k_s. "phase_asymmetry" makes Henyey and Greenstein's phase
+/// function the diffuse part; without it that is Equation 19's.
 #pragma once
 
 #include <string>
@@ -27,9 +30,15 @@ void parseLighting(const std::string& text, const std::string& origin, shading::
 /// The same of a file.
 void readLighting(const std::string& path, shading::ShadingSettings& settings);
 
-/// "phong", "blinn-phong", "ward", "lafortune", "henyey-greenstein"; "cell", "smooth". `what` begins the message.
+/// Sets how highlights are formed: "phong", "blinn-phong", "ward", "lafortune", "none", and "henyey-greenstein", which is
+/// short for none with a phase function (of asymmetry 0.3 unless it has one). `what` begins the message.
 /// \throws std::runtime_error listing the names there are
-shading::Reflectance reflectanceOf(const std::string& what, const std::string& name);
+void setReflectance(const std::string& what, const std::string& name, shading::ShadingSettings& settings);
+
+/// Checks and sets Material::phaseAsymmetry.
+void setPhaseAsymmetry(const std::string& what, double asymmetry, shading::Material& material);
+
+/// "cell", "smooth".
 shading::Normals normalsOf(const std::string& what, const std::string& name);
 
 /// Checks one parameter of AnisotropySettings by its key of the document, and sets it.

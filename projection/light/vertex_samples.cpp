@@ -29,8 +29,11 @@ void addSpecularFactors(const Scene& scene, shading::VertexLight& light) {
     double largest = 0;
     for (const glm::dvec3& gradient : gradients) largest = std::max(largest, glm::length(gradient));
     if (!(largest > 0)) return;
+    // gradients are in ranges per diagonal
+    const bool absolute = scene.settings.shading.material.specularByGradient == shading::GradientSpecular::Absolute;
+    const double unit = absolute ? (*most - *least) / extinction.bounds.diagonal() : 1 / largest;
     for (std::size_t point = 0; point < gradients.size(); ++point)
-        light.of(point)[light.specularAt] = static_cast<float>(glm::length(gradients[point]) / largest);
+        light.of(point)[light.specularAt] = static_cast<float>(glm::length(gradients[point]) * unit);
 }
 
 void addSamples(const Scene& scene, shading::VertexLight& light) {

@@ -53,17 +53,18 @@ glsl::LightModel modelOf(const shading::ShadingSettings& settings) {
     const shading::Material& material = settings.material;
     const double through = settings.transmission ? 1.0 : 0.0;
     return {static_cast<int>(settings.reflectance),
+            material.phaseAsymmetry ? 1 : 0,
             material.front.specular,
             material.back.specular,
-            material.front.exponent.value_or(settings.exponent),
-            material.back.exponent.value_or(settings.exponent),
+            settings.exponentOf(material.front),
+            settings.exponentOf(material.back),
             material.diffuse,
             material.specular,
             through * material.diffuseTransmission,
             through * material.specularTransmission,
-            settings.wardExponent(),
+            settings.wardRoughness(),
             settings.anisotropy.gamma,
-            material.phaseAsymmetry};
+            material.phaseAsymmetry.value_or(0.0)};
 }
 
 }  // namespace
@@ -75,7 +76,7 @@ glm::dvec3 litColor(const Scene& scene, const SegmentToLight& segment) {
     glsl::LightModel model = modelOf(settings);
     if (kept.specularAt >= 0) {
         const double factor = attributes.at(kept.specularAt);
-        model.specular *= factor;
+        model.specular = factor;
         model.specularThrough *= factor;
     }
     glsl::LitPoint point{};
@@ -90,8 +91,7 @@ glm::dvec3 litColor(const Scene& scene, const SegmentToLight& segment) {
     point.opacity = segment.opacity;
 
     glm::dvec3 light = settings.ambient * settings.ambientColor * segment.color;
-    const bool phase = settings.reflectance == shading::Reflectance::HenyeyGreenstein;
-    if (!phase && point.normal == glm::dvec3(0)) return light;
+    if (!settings.material.phaseAsymmetry && point.normal == glm::dvec3(0)) return light;
     if (settings.needsAnisotropy())
         glsl::setAnisotropy(model, attributes.vectorAt(kept.tensorAt), attributes.vectorAt(kept.tensorAt + 3), point);
     for (std::size_t i = 0; i < settings.lights.size(); ++i) {

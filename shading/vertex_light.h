@@ -28,8 +28,9 @@ struct VertexLight {
     std::vector<mesh::Tetrahedron> corners;
 
     bool any() const { return stride > 0; }
-    const mesh::Tetrahedron& cornersOf(std::span<const mesh::Tetrahedron> cells, mesh::CellIndex cell) const {
-        return corners.empty() ? cells[cell] : corners[cell];
+    /// Rows of the corners of a cell with these points.
+    const mesh::Tetrahedron& cornersOf(mesh::CellIndex cell, const mesh::Tetrahedron& points) const {
+        return corners.empty() ? points : corners[cell];
     }
     float* of(std::size_t row) { return values.data() + row * static_cast<std::size_t>(stride); }
     const float* of(std::size_t row) const { return values.data() + row * static_cast<std::size_t>(stride); }

@@ -77,7 +77,8 @@ HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& b
     if (cut != nullptr) side = real(1.0f);
     if (HWY_UNLIKELY(frame.lightInFull)) {
         const vec3 lit =
-            lightInFull(frame, batch, j, middles(), place(), {mean, opacity, side, segments.front, segments.back, towards, cut});
+            lightInFull(frame, batch, j, middles(), place(),
+                        {mean, opacity, side, segments.front, segments.back, towards, cut});
         return {lit.x, lit.y, lit.z, opacity, depth};
     }
     vec3 light = real(shading.ambient) * mean;

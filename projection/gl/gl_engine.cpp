@@ -307,7 +307,7 @@ CellCorners GlEngine::cellCorners(const CellProjector& projector, const CellReco
     CellCorners corners;
     for (std::size_t k = 0; k < 4; ++k) {
         corners.eyeWeight[k] = static_cast<float>(eye[k] * perRho);
-        corners.point[k] = vertexLight_->cornersOf(scene_.mesh->cells, cell)[k];
+        corners.point[k] = vertexLight_->cornersOf(cell, scene_.mesh->cells[cell])[k];
     }
     return corners;
 }

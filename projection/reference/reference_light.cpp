@@ -32,7 +32,7 @@ class AttributesAt {
 public:
     AttributesAt(const Scene& scene, mesh::CellIndex cell, const glm::dvec3& place) : light_(*scene.vertexLight) {
         if (!light_.any()) return;
-        corners_ = light_.cornersOf(scene.mesh->cells, cell);
+        corners_ = light_.cornersOf(cell, scene.mesh->cells[cell]);
         weights_ = innerCoordinates(*scene.mesh, cell, place);
     }
     double at(int place) const {

@@ -86,14 +86,24 @@ TEST_F(ImageFiles, PngRoundsToTheNearestByteAndKeepsThePlace) {
 
 TEST_F(ImageFiles, PngHoldsWhatIsOutsideZeroToOne) {
     Image image(4, 1);
-    const float infinity = std::numeric_limits<float>::infinity();
-    image.pixels = {{-1, 2, 0, 1}, {std::nanf(""), infinity, -infinity, 1}, {0.25f, 0.5f, 0, 0.5f}, {0, 0, 0, 0}};
+    image.pixels = {{-1, 2, 0, 1}, {-1e30f, 1e30f, -0.0f, 1}, {0.25f, 0.5f, 0, 0.5f}, {0, 0, 0, 0}};
     writeImage(image, path("a.png"));
     const Image again = readImage(path("a.png"));
     EXPECT_EQ(again.at(0, 0), glm::vec4(0, 1, 0, 1));
     EXPECT_EQ(again.at(1, 0), glm::vec4(0, 1, 0, 1));
     EXPECT_EQ(again.at(2, 0), glm::vec4(64 / 255.0f, 128 / 255.0f, 0, 1)) << "premultiplied over black";
     EXPECT_EQ(again.at(3, 0), glm::vec4(0, 0, 0, 1));
+}
+
+TEST_F(ImageFiles, WhatIsNotFiniteIsNotWritten) {
+    const float infinity = std::numeric_limits<float>::infinity();
+    for (const float value : {std::nanf(""), infinity, -infinity})
+        for (const char* name : {"a.png", "a.exr"}) {
+            Image image(2, 2);
+            image.at(1, 0).g = value;
+            EXPECT_NE(messageOf([&] { writeImage(image, path(name)); }).find("the first at (1, 0)"), std::string::npos);
+            EXPECT_FALSE(std::filesystem::exists(path(name)));
+        }
 }
 
 TEST_F(ImageFiles, EndingsChooseTheFormatInEitherCase) {

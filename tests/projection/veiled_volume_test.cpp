@@ -239,7 +239,7 @@ TEST(SurfaceShadows, FallOnTheVolume) {
         if (std::abs(beside) < 1e-5 || std::max(p.x, p.y) > 1 - 1e-6) continue;  // rims
         const bool hidden = beside < 0 && p.z < 0.8 - 1e-5;
         dark += hidden ? 1 : 0;
-        EXPECT_NEAR(light->of(i)[light->shadowAt], hidden ? 0.0 : std::exp(-1.3 * (1 - p.z)), 1e-6);
+        EXPECT_NEAR(light->of(i)[light->shadowAt], hidden ? 0.0 : std::exp(-1.3 * (1 - p.z)), 2e-6);  // rays begin some 1e-6 off the vertex
     }
     EXPECT_GT(dark, 50);
 }

@@ -84,7 +84,7 @@ inline void expectSame(const Scene& scene, const std::vector<View>& views, const
 
 inline const std::vector<Mode> pathModes{Mode::Standard, Mode::ScaleInvariant, Mode::Mip,          Mode::Minimum,
                                          Mode::Average,  Mode::Additive,       Mode::Emission,     Mode::Absorption,
-                                         Mode::FirstHit, Mode::Depth,          Mode::Contributions};
+                                         Mode::FirstHit, Mode::Depth};
 
 /// In two lights, with silhouettes or with smooth normals, which vertices carry.
 inline Scene litScene(int n, bool smooth) {

@@ -35,7 +35,8 @@ enum class Reflectance {
     None         ///< no highlights and no specular transmission
 };
 
-/// Whose normal is lit; silhouettes and the side of a segment are those of the cell's gradient in any case.
+/// Whose normal is lit, and whose direction silhouettes follow; the side of a segment is that of the cell's gradient in
+/// any case.
 enum class Normals {
     Cell,   ///< that of the cell's gradient
     Smooth  ///< gradients fitted at the vertices (least squares), interpolated to the segment's middle
@@ -121,6 +122,9 @@ struct ShadingSettings {
     bool needsAnisotropy() const {
         return lit() && (reflectance == Reflectance::Ward || reflectance == Reflectance::Lafortune);
     }
+    /// Silhouettes follow the smoothed gradient: k = |ḡ|/|ḡ·d|; 1 where ḡ = 0.
+    bool smoothSilhouettes() const { return silhouette && normals == Normals::Smooth; }
+    bool needsSmoothNormals() const { return normals == Normals::Smooth && (lit() || silhouette); }
     bool needsShadows() const;  ///< a light that is not at the eye, and shadows on
 
     /// Whether lights and material are those of shading/cell_shading.glsl's lightTerm: directional, intensity 1, the

@@ -21,7 +21,7 @@ VertexLight vertexLight(const mesh::ScalarMesh& mesh, const ShadingSettings& set
         floats += count;
         return floats - count;
     };
-    if (settings.lit() && settings.normals == Normals::Smooth) light.normalAt = take(3);
+    if (settings.needsSmoothNormals()) light.normalAt = take(3);
     if (settings.needsAnisotropy()) light.tensorAt = take(6);
     if (settings.needsShadows()) light.shadowAt = take(static_cast<int>(settings.lights.size()));
     if (settings.lit() && settings.material.specularByGradient != GradientSpecular::Off) light.specularAt = take(1);

@@ -13,7 +13,7 @@
 
 namespace tetralux::shading {
 
-/// `stride` floats per point, a multiple of four. Each `…At` is the place of an attribute among them, −1: not there.
+/// `stride` floats per point, a multiple of four: a row. Each `…At` is the place of an attribute among them, −1: not there.
 struct VertexLight {
     int stride = 0;
     int normalAt = -1;    ///< three: gradient (vertex_gradients.h)
@@ -22,10 +22,17 @@ struct VertexLight {
     int specularAt = -1;  ///< one: Material::specularByGradient's factor
     int sampleAt = -1;    ///< four: colour and extinction of pre-classification, per unit of scene units
     std::vector<float> values;
+    /// Rows of each cell's corners, in the order of its points. Empty: those of the points. Rows of particular cells
+    /// follow those of the points.
+    std::vector<mesh::Tetrahedron> corners;
 
     bool any() const { return stride > 0; }
-    float* of(std::size_t point) { return values.data() + point * static_cast<std::size_t>(stride); }
-    const float* of(std::size_t point) const { return values.data() + point * static_cast<std::size_t>(stride); }
+    /// Rows of the corners of a cell with these points.
+    const mesh::Tetrahedron& cornersOf(mesh::CellIndex cell, const mesh::Tetrahedron& points) const {
+        return corners.empty() ? points : corners[cell];
+    }
+    float* of(std::size_t row) { return values.data() + row * static_cast<std::size_t>(stride); }
+    const float* of(std::size_t row) const { return values.data() + row * static_cast<std::size_t>(stride); }
 };
 
 /// The attributes that `settings` need, and samples if they are `sampled`; the anisotropy is `kept`, or else computed. What takes a transfer function is left for

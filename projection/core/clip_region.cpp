@@ -76,6 +76,11 @@ ClipRegion::ClipRegion(std::vector<HalfSpace> halfSpaces, double cutLayer)
     }
 }
 
+glm::dvec2 ClipRegion::within(const Ray& ray) const {
+    const Interval interval = intervalOf(halfSpaces_, 0.0, ray);
+    return {interval.begin, interval.end};
+}
+
 void ClipRegion::apply(const Camera& camera, PixelMaps& maps) const {
     const CameraFrame frame = cameraFrame(camera);
     const auto width = static_cast<std::size_t>(camera.width), height = static_cast<std::size_t>(camera.height);

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include <projection/core/pixel_maps.h>
 
 namespace tetralux::projection {
@@ -32,6 +34,9 @@ public:
     ClipRegion(std::vector<HalfSpace> halfSpaces, double cutLayer);
 
     void apply(const Camera& camera, PixelMaps& maps) const override;
+
+    /// Where along a ray the region begins and ends (mesh units; begin ≥ end: nowhere, begin may be less than 0).
+    glm::dvec2 within(const Ray& ray) const;
 
 private:
     std::vector<HalfSpace> halfSpaces_;  // unit normals

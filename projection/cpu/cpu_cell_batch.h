@@ -234,6 +234,7 @@ HWY_INLINE std::size_t setUpBatch(const TileFrame& frame, int tileX, int tileY, 
                                             corners.point[3][j]};
             setUpCellAtEye(frame, tileX, tileY, points, entries[j].cell, corners.odd[j] != 0, j, batch);
         }
+    if (frame.attributes && !frame.vertexLight->corners.empty()) takeRowsOfCells(frame, entries, cells, batch);
     return cells;
 }
 

@@ -211,7 +211,9 @@ void CpuEngine::prepare() {
     vertexLight_ = vertexLightOf(scene_);
     frame_.shading = &shading;
     frame_.lightInFull = shading.lit() && !shading.plain();
-    frame_.attributes = (frame_.lightInFull && vertexLight_->any()) || vertexLight_->sampleAt >= 0;
+    frame_.smoothSilhouettes = shading.smoothSilhouettes();
+    frame_.attributes = (frame_.lightInFull && vertexLight_->any()) || vertexLight_->sampleAt >= 0 ||
+                        frame_.smoothSilhouettes;
     frame_.lightModel = lightModelFloats(shading);
     frame_.vertexLight = vertexLight_.get();
     frame_.earlyTermination = skips_.earlyTermination && scene_.settings.earlyTermination;

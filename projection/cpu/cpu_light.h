@@ -18,6 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace tetralux::projection::HWY_NAMESPACE {
 
 #include <shading/light_model.glsl>
+#include <shading/surface_shadow.glsl>
 
 /// Where a block's segments run, as light needs it.
 struct SegmentMiddles {
@@ -40,6 +41,7 @@ struct SegmentToLight {
     vec3 color;       ///< C_seg/α_seg
     real opacity;     ///< after the silhouette
     real side;        ///< sign of s_f − s_b
+    real front, back;  ///< scalars at its ends
     vec3 towards;     ///< of the ray, unit, (right, down, forward)
     const vec3* cut;  ///< normal of the cut in whose layer the segments lie (pixel_maps.h); nullptr: they lie in none
 };
@@ -78,6 +80,52 @@ HWY_INLINE real attributeAt(const float* const (&values)[4], int place, const re
 HWY_INLINE vec3 vectorAt(const float* const (&values)[4], int place, const real (&weights)[4]) {
     return {attributeAt(values, place, weights), attributeAt(values, place + 1, weights),
             attributeAt(values, place + 2, weights)};
+}
+
+/// What the vertices of cell j carry, in the order of the planes.
+struct CornerValues {
+    const float* of[4];
+    CornerValues(const shading::VertexLight& kept, const CellBatch& batch, std::size_t j) {
+        for (std::size_t k = 0; k < 4; ++k) of[k] = kept.of(static_cast<std::uint32_t>(batch.corner[k][j]));
+    }
+};
+
+/// Unit smoothed gradient (shading::Normals::Smooth), and where there is one; else 0.
+struct SmoothNormal {
+    vec3 normal;
+    mask any;
+};
+HWY_INLINE SmoothNormal smoothNormalAt(const shading::VertexLight& kept, const float* const (&values)[4],
+                                       const real (&weights)[4]) {
+    const vec3 gradient = vectorAt(values, kept.normalAt, weights);
+    const real square = dot(gradient, gradient);
+    const mask any = square > real(1e-30f);
+    return {keep(any, real(1.0f) / sqrt(max(square, real(1e-30f)))) * gradient, any};
+}
+
+/// ḡ·d/|ḡ| of silhouettes that follow the smoothed gradient ḡ; 1 where there is none.
+inline HWY_NOINLINE real smoothCosine(const TileFrame& frame, const CellBatch& batch, std::size_t j,
+                                      const SegmentMiddles& middles, vec3 towards) {
+    real weights[4];
+    middleCoordinates(batch, j, middles, weights);
+    const CornerValues values(*frame.vertexLight, batch, j);
+    const SmoothNormal smooth = smoothNormalAt(*frame.vertexLight, values.of, weights);
+    return select(smooth.any, dot(smooth.normal, worldFromCamera(frame, towards)), real(1.0f));
+}
+
+/// What the isosurfaces of the segments' cell leave of light that comes from `towards` (world).
+HWY_INLINE real surfaceShadows(const TileFrame& frame, const CellBatch& batch, std::size_t j,
+                               const SegmentToLight& segment, vec3 towards) {
+    const float low = batch.scalarLow[j], high = batch.scalarHigh[j];
+    real through(1.0f);
+    for (const TransferPeak& peak : frame.transfer->peaks()) {
+        if (!(low < peak.value && peak.value <= high)) continue;
+        const vec3 normal(real(batch.normal[0][j]), real(batch.normal[1][j]), real(batch.normal[2][j]));
+        const real rise = dot(worldFromCamera(frame, normal), towards);
+        through = through * surfaceShadow(real(peak.value), real(peak.opacity), segment.front, segment.back, real(low),
+                                          real(high), rise);
+    }
+    return through;
 }
 
 HWY_INLINE LightModel broadcastModel(const LightModelFloats& floats) {
@@ -143,10 +191,7 @@ inline HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& ba
     if (segment.cut != nullptr) {
         point.normal = worldFromCamera(frame, *segment.cut);
     } else if (kept.normalAt >= 0) {
-        const vec3 gradient = vectorAt(values, kept.normalAt, weights);
-        const real square = dot(gradient, gradient);
-        const real inverse = keep(square > real(1e-30f), real(1.0f) / sqrt(max(square, real(1e-30f))));
-        point.normal = inverse * gradient;
+        point.normal = smoothNormalAt(kept, values, weights).normal;
     } else if (batch.gradient[j] > 0) {
         point.normal =
             worldFromCamera(frame, vec3(real(batch.normal[0][j]), real(batch.normal[1][j]), real(batch.normal[2][j])));
@@ -161,7 +206,11 @@ inline HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& ba
     for (std::size_t i = 0; i < frame.fullLights.size(); ++i) {
         vec3 towards;
         vec3 color = arriving(frame.fullLights[i], middle, point.view, towards);
-        if (kept.shadowAt >= 0) color = attributeAt(values, kept.shadowAt + static_cast<int>(i), weights) * color;
+        if (kept.shadowAt >= 0) {
+            real shadow = attributeAt(values, kept.shadowAt + static_cast<int>(i), weights);
+            if (!kept.corners.empty()) shadow = shadow * surfaceShadows(frame, batch, j, segment, towards);
+            color = shadow * color;
+        }
         const vec3 term = modelTerm(model, point, segment.color, towards);
         light = light + vec3(color.x * term.x, color.y * term.y, color.z * term.z);
     }

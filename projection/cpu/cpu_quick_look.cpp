@@ -38,14 +38,15 @@ QuickLamp quickLamp(const FrameLight& light, const glm::vec3& specular, const Ti
 }  // namespace
 
 bool silhouettesAtMost(const shading::ShadingSettings& settings) {
-    return !settings.lit() && settings.gradientOpacity == 0 && !settings.approximateSilhouette && !settings.depthColor;
+    return !settings.lit() && !settings.smoothSilhouettes() && settings.gradientOpacity == 0 &&
+           !settings.approximateSilhouette && !settings.depthColor;
 }
 
 QuickLook quickLook(const shading::ShadingSettings& shading, const TileFrame& frame) {
     QuickLook quick;
     const bool plain = shading.plain();
-    if (shading.gradientOpacity > 0 || shading.approximateSilhouette || shading.depthColor ||
-        frame.fullLights.size() > QuickLook::mostLights || (!plain && !lampsSuffice(shading)))
+    if (shading.smoothSilhouettes() || shading.gradientOpacity > 0 || shading.approximateSilhouette ||
+        shading.depthColor || frame.fullLights.size() > QuickLook::mostLights || (!plain && !lampsSuffice(shading)))
         return quick;
     quick.look = frame.fullLights.empty() ? Look::Silhouettes : plain ? Look::Lit : Look::Lamps;
     quick.silhouettes = shading.silhouette;

@@ -50,7 +50,10 @@ HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& b
     real plainDepth = sink.smoothDepth + sink.otherDepth, depth = plainDepth;
     const real inverse = select(sink.opacity > real(0.0f), real(1.0f) / max(sink.opacity, real(1e-37f)), real(0.0f));
     vec3 mean = inverse * vec3(sink.r, sink.g, sink.b);
-    if (shading.silhouette && batch.gradient[j] > 0) {
+    const bool enhanced = shading.silhouette && (frame.smoothSilhouettes || batch.gradient[j] > 0);
+    if (HWY_UNLIKELY(frame.smoothSilhouettes)) {
+        depth = silhouetteDepth(real(0.0f), depth, smoothCosine(frame, batch, j, middles(), towards));
+    } else if (enhanced) {
         const real cosine = dot(normal, towards);
         if constexpr (ScaleInvariant) {
             const real variation = abs(segments.back - segments.front);
@@ -67,7 +70,7 @@ HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& b
     depth = depth * factor;
     plainDepth = plainDepth * factor;
     real opacity = opacityOfDepth(depth);
-    if (shading.approximateSilhouette && batch.gradient[j] > 0)
+    if (shading.approximateSilhouette && enhanced)
         opacity = approximateSilhouetteOpacity(opacityOfDepth(plainDepth), plainDepth, depth);
     if (!shading.lit()) return {mean.x, mean.y, mean.z, opacity, depth};
 
@@ -75,7 +78,8 @@ HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& b
     if (cut != nullptr) side = real(1.0f);
     if (HWY_UNLIKELY(frame.lightInFull)) {
         const vec3 lit =
-            lightInFull(frame, batch, j, middles(), place(), {mean, opacity, side, towards, cut});
+            lightInFull(frame, batch, j, middles(), place(),
+                        {mean, opacity, side, segments.front, segments.back, towards, cut});
         return {lit.x, lit.y, lit.z, opacity, depth};
     }
     vec3 light = real(shading.ambient) * mean;

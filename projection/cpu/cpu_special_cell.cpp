@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <projection/cpu/cpu_special_cell.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <projection/cells/projected_cell.h>
@@ -8,6 +9,17 @@
 namespace tetralux::projection {
 
 using namespace single_cell;
+
+void takeRowsOfCells(const TileFrame& frame, std::span<const TileEntry> entries, std::size_t cells, CellBatch& batch) {
+    for (std::size_t j = 0; j < cells; ++j) {
+        const mesh::Tetrahedron &points = frame.cells[entries[j].cell],
+                                &rows = frame.vertexLight->corners[entries[j].cell];
+        for (auto& corner : batch.corner) {
+            const auto at = std::find(points.begin(), points.end(), static_cast<mesh::PointIndex>(corner[j]));
+            corner[j] = static_cast<std::int32_t>(rows[static_cast<std::size_t>(at - points.begin()) % 4]);
+        }
+    }
+}
 
 bool rectangleAtEye(const TileFrame& frame, const std::array<CameraPoint, 4>& corners, PixelRect& rect) {
     std::array<glm::dvec3, 4> points;

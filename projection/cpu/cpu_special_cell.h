@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <span>
 
 #include <projection/cpu/cpu_tile.h>
 
@@ -29,7 +30,7 @@ struct CellBatch {
     Lanes<float> nearnessPerRho, nearness, nearnessChecked;
     Lanes<float> normal[3], gradient;  ///< unit, as (right, down, forward); scene scalars per scene length
     Lanes<float> eyeWeight[4];         ///< barycentric coordinates of the eye (orthographic: their rates per rho)
-    Lanes<std::int32_t> corner[4];     ///< point numbers, in the order of the planes
+    Lanes<std::int32_t> corner[4];     ///< rows of attributes, in the order of the planes: point numbers
     alignas(64) std::int32_t begin[capacity][2], end[capacity][2];  ///< pixels (x, y) within the tile
 };
 
@@ -47,6 +48,9 @@ inline std::uint64_t packedPair(int x, int y) {
 /// inside out.
 void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int32_t (&points)[4], mesh::CellIndex cell,
                     bool odd, std::size_t j, CellBatch& batch);
+
+/// Puts rows of attributes that are particular to cells (shading::VertexLight::corners) in the place of the points' own.
+void takeRowsOfCells(const TileFrame& frame, std::span<const TileEntry> entries, std::size_t cells, CellBatch& batch);
 
 /// The pixels that the part of a cell in front of the eye may cover; false when there are none.
 bool rectangleAtEye(const TileFrame& frame, const std::array<CameraPoint, 4>& corners, PixelRect& rect);

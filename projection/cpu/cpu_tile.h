@@ -113,6 +113,7 @@ struct TileFrame {
     // light in full (cpu_light.h): anything that ShadingSettings::plain() does not hold for
     bool lightInFull;
     bool attributes;  ///< whether anything reads those of the vertices
+    bool smoothSilhouettes;
     LightModelFloats lightModel;
     std::vector<FrameLight> fullLights;
     std::array<glm::vec3, 3> axes;  ///< right, down, forward in world space

@@ -86,4 +86,5 @@ tetralux_embed_shaders(tetralux_projection FILES
   shading/cell_shading.glsl
   shading/light_model.glsl
   shading/silhouette.glsl
+  shading/surface_shadow.glsl
 )

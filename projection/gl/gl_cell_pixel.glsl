@@ -121,6 +121,10 @@ bool drawSegment(CellRecord cell, vec2 pixel, float dx, float dy, vec2 rho, vec3
     float middle = 0.5 * (distanceTo(cell, rho.x, pixel - centre) + distanceTo(cell, rho.y, pixel - centre));
     depthShare = depthColor.a * clamp(depthRange.x + depthRange.y * middle, 0.0, 1.0);
 #endif
+#if TETRALUX_SURFACE_SHADOWS
+    segmentScalars = vec4(front, back, cell.scalarLow, cell.scalarHigh);
+    fieldNormal = gradient.xyz;
+#endif
     vec4 perOpacity = shadedSegment(front, back, len, side, view, normalAndMagnitude, cutNormal);
 #if TETRALUX_MODE == TETRALUX_MODE_FIRST_HIT
     if (!segmentShows(front, back)) return false;

@@ -98,7 +98,10 @@ GlDefines variant(const RenderSettings& settings, const shading::VertexLight& ve
     const bool full = lights > 0 && !shading.plain();
     defines.set("TETRALUX_FULL_LIGHT", full);
     const bool sampled = shades && settings.classification == Classification::Pre && vertexLight.sampleAt >= 0;
-    defines.set("TETRALUX_ATTRIBUTES", full || sampled ? vertexLight.stride / 4 : 0);
+    const bool smoothSilhouette = silhouette && shading.smoothSilhouettes();
+    defines.set("TETRALUX_SMOOTH_SILHOUETTE", smoothSilhouette);
+    defines.set("TETRALUX_ATTRIBUTES", full || sampled || smoothSilhouette ? vertexLight.stride / 4 : 0);
+    defines.set("TETRALUX_SURFACE_SHADOWS", full && vertexLight.shadowAt >= 0 && !vertexLight.corners.empty());
     defines.set("TETRALUX_SAMPLE_AT", sampled ? vertexLight.sampleAt : -1);
     defines.set("TETRALUX_SPECULAR_AT", vertexLight.specularAt);
     defines.set("TETRALUX_NORMAL_AT", vertexLight.normalAt);
@@ -137,7 +140,8 @@ std::vector<std::string_view> pixelFiles(bool looksUp, bool walks) {
         else
             files.insert(files.end(), {"projection/gl/gl_table.glsl", "preint/table_lookup.glsl"});
         files.insert(files.end(), {"preint/gather_segment.glsl", "shading/cell_shading.glsl", "shading/silhouette.glsl",
-                                   "projection/gl/gl_modes.glsl", "projection/gl/gl_segment.glsl"});
+                                   "shading/surface_shadow.glsl", "projection/gl/gl_modes.glsl",
+                                   "projection/gl/gl_segment.glsl"});
     }
     files.emplace_back("projection/gl/gl_cell_pixel.glsl");
     return files;

@@ -7,6 +7,9 @@ layout(std430, binding = 5) writeonly buffer Vertices { uint vertices[]; };
 #if TETRALUX_GRADIENT
 layout(std430, binding = 6) readonly buffer Gradients { vec4 gradients[]; };
 #endif
+#if TETRALUX_ATTRIBUTES
+layout(std430, binding = 7) readonly buffer AttributeRows { uvec4 attributeRows[]; };  // of the cells' corners
+#endif
 
 uniform uint chunkBegin, chunkCells, reversed;  // reversed: from the last cell of the order on
 uniform double margin;                     // pixels
@@ -66,7 +69,7 @@ void main() {
 #if TETRALUX_ATTRIBUTES
         double weight = (odd ? -forms.eye[i] : forms.eye[i]) / abs(forms.determinant);
         store(base + 36 + k, float(view.orthographic ? weight * abs(reference.depth) : weight));
-        vertices[base + 40 + k] = points[k];
+        vertices[base + 40 + k] = attributeRows[cell][k];
 #endif
     }
     for (int i = 12; i < 24; ++i) store(record + i, float(recordValue(i, projected, reference, s, frontMask, view)));

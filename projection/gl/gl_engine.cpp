@@ -145,7 +145,8 @@ public:
             prepare_["table"] = watch.lap();
             const auto& shading = scene.settings.shading;
             fullLight_ = shading.lit() && !shading.plain();
-            layout_.attributes = (fullLight_ && vertexLight_->any()) || vertexLight_->sampleAt >= 0;
+            layout_.attributes = (fullLight_ && vertexLight_->any()) || vertexLight_->sampleAt >= 0 ||
+                                 shading.smoothSilhouettes();
             prepare_["light"] = watch.lap();
         }
         order_.emplace(scene, modeLooksUp(mode()) && !orderFree(mode()) && orderMatters(), modeLooksUp(mode()));
@@ -246,7 +247,7 @@ void GlEngine::choosePath(GlPath wanted) {
         isSoftwareRenderer(state_->renderer) ? GlResidentCells::softwareChunk : GlResidentCells::gpuChunk;
     const auto keepCells = [&] {
         state_->resident.emplace(*state_->gl, *scene_.mesh, units_, order_->visible(), order_->keys(),
-                                 order_->relations(), layout_, chunk);
+                                 order_->relations(), vertexLight_->corners, layout_, chunk);
     };
     const auto makeTiles = [&] {
         const std::size_t cells = state_->resident->chunkCells();
@@ -303,7 +304,7 @@ CellCorners GlEngine::cellCorners(const CellProjector& projector, const CellReco
     CellCorners corners;
     for (std::size_t k = 0; k < 4; ++k) {
         corners.eyeWeight[k] = static_cast<float>(eye[k] * perRho);
-        corners.point[k] = scene_.mesh->cells[cell][k];
+        corners.point[k] = vertexLight_->cornersOf(cell, scene_.mesh->cells[cell])[k];
     }
     return corners;
 }

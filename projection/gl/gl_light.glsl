@@ -38,6 +38,15 @@ float attributeAt(int place) {
 vec3 vectorAt(int place) { return vec3(attributeAt(place), attributeAt(place + 1), attributeAt(place + 2)); }
 #endif
 
+#if TETRALUX_ATTRIBUTES && TETRALUX_NORMAL_AT >= 0
+// Unit smoothed gradient (shading::Normals::Smooth) at the middle, and 1; zeros where there is none.
+vec4 smoothNormal() {
+    vec3 smoothed = vectorAt(TETRALUX_NORMAL_AT);
+    float square = dot(smoothed, smoothed);
+    return square > 1e-30 ? vec4(smoothed * inversesqrt(square), 1.0) : vec4(0.0);
+}
+#endif
+
 // Where the middle of the segment between rho.x and rho.y lies.
 void setMiddle(CellRecord cell, vec2 rho, float dx, float dy, vec2 fromCentre) {
 #if TETRALUX_ORTHOGRAPHIC
@@ -57,6 +66,10 @@ void setMiddle(CellRecord cell, vec2 rho, float dx, float dy, vec2 fromCentre) {
     middleWeight /= max(middleWeight.x + middleWeight.y + middleWeight.z + middleWeight.w, 1e-30);
 #endif
 }
+#endif
+
+#if TETRALUX_SURFACE_SHADOWS
+float surfaceShadows(vec3 towards);  // gl_segment.glsl
 #endif
 
 #if TETRALUX_FULL_LIGHT
@@ -103,10 +116,9 @@ vec3 lightInFull(vec3 meanColor, float opacity, float side, vec3 view, vec4 grad
     float magnitude = gradient.w;
 #if TETRALUX_NORMAL_AT >= 0
     if (!cut) {
-        vec3 smoothed = vectorAt(TETRALUX_NORMAL_AT);
-        magnitude = dot(smoothed, smoothed);
-        point.normal = smoothed * inversesqrt(max(magnitude, 1e-30));
-        magnitude = magnitude > 1e-30 ? magnitude : 0.0;
+        vec4 smoothed = smoothNormal();
+        point.normal = smoothed.xyz;
+        magnitude = smoothed.w;
     }
 #endif
     if (!(magnitude > 0.0)) {
@@ -124,6 +136,9 @@ vec3 lightInFull(vec3 meanColor, float opacity, float side, vec3 view, vec4 grad
         vec3 color = arriving(i, view, towards);
 #if TETRALUX_SHADOW_AT >= 0
         color *= attributeAt(TETRALUX_SHADOW_AT + i);
+#endif
+#if TETRALUX_SURFACE_SHADOWS
+        color *= surfaceShadows(towards);
 #endif
         light += color * modelTerm(model, point, meanColor, towards);
     }

@@ -64,13 +64,15 @@ GlResidentCells::Kernels::Kernels(const GlFunctions& gl, const GlDefines& define
 
 GlResidentCells::GlResidentCells(const GlFunctions& gl, const mesh::ScalarMesh& mesh, const SceneUnits& units,
                                  const std::vector<mesh::CellIndex>& visible, const OrderKeys* keys,
-                                 const mesh::Adjacency* adjacency, GlCellLayout layout, std::size_t mostChunkCells)
+                                 const mesh::Adjacency* adjacency, const std::vector<mesh::Tetrahedron>& attributeRows,
+                                 GlCellLayout layout, std::size_t mostChunkCells)
     : gl_(gl),
       units_(units),
       keys_(keys),
       layout_(layout),
       cellData_(mesh.association == mesh::Association::Cell),
       checks_(keys != nullptr && adjacency != nullptr),
+      ownRows_(!attributeRows.empty()),
       pointCount_(mesh.positions.size()),
       visibleCount_(visible.size()),
       groups_((visible.size() + glGroup - 1) / glGroup),
@@ -79,6 +81,7 @@ GlResidentCells::GlResidentCells(const GlFunctions& gl, const mesh::ScalarMesh& 
       positions_(GlStorage::of(gl, mesh.positions)),
       scalars_(GlStorage::of(gl, mesh.scalars)),
       cells_(GlStorage::of(gl, mesh.cells)),
+      attributeRows_(GlStorage::of(gl, attributeRows)),
       visible_(GlStorage::of(gl, visible)),
       gradients_(GlStorage::of(gl, gradientsOf(mesh, units, layout.gradient))),
       keyPlanes_(GlStorage::of(gl, keys != nullptr ? keys->planes() : std::vector<glm::dvec4>())),
@@ -188,7 +191,7 @@ const GlCellBuffer& GlResidentCells::setUpChunk(const Kernels& kernel, std::size
     kernel.setUp.use();
     kernel.setUp.set("chunkBegin", chunk * chunkCells_);
     bindStorage(gl_, {plan_.name(), cameraPoints_.name(), cells_.name(), scalars_.name(), keyed_.name(),
-                      buffer.vertices(), gradients_.name()});
+                      buffer.vertices(), gradients_.name(), ownRows_ ? attributeRows_.name() : cells_.name()});
     kernel.setUp.runIndirect(chunkBytes(chunk) + offsetof(ChunkCommands, setUp));
     return buffer;
 }

@@ -31,7 +31,8 @@ public:
     /// \throws std::runtime_error when the driver refuses a shader or the mesh does not fit its buffers.
     GlResidentCells(const GlFunctions& gl, const mesh::ScalarMesh& mesh, const SceneUnits& units,
                     const std::vector<mesh::CellIndex>& visible, const OrderKeys* keys,
-                    const mesh::Adjacency* adjacency, GlCellLayout layout, std::size_t mostChunkCells = softwareChunk);
+                    const mesh::Adjacency* adjacency, const std::vector<mesh::Tetrahedron>& attributeRows,
+                    GlCellLayout layout, std::size_t mostChunkCells = softwareChunk);
 
     /// Cells that are set up and drawn at a time. Many keep a GPU busy: 2¹⁹ of them have 92 MB of vertices at most, and
     /// shaders see 128 MiB of a buffer at least. Software renderers begin earlier with fewer.
@@ -71,10 +72,10 @@ private:
     SceneUnits units_;
     const OrderKeys* keys_;
     GlCellLayout layout_;
-    bool cellData_, checks_;
+    bool cellData_, checks_, ownRows_;  // ownRows_: attributeRows_ are in the place of the cells' points
     std::size_t pointCount_, visibleCount_, groups_, chunkCells_, chunkCount_;
     std::uint64_t uploadedLast_ = 0;
-    GlStorage positions_, scalars_, cells_, visible_, gradients_, keyPlanes_, neighbours_;
+    GlStorage positions_, scalars_, cells_, attributeRows_, visible_, gradients_, keyPlanes_, neighbours_;
     GlStorage cameraPoints_, flags_, groupCounts_, groupRanges_, keyed_, scratch_, places_, plan_;
     std::optional<GlStorage> order_;  // of cells, where a frame brings one
     GlKernel points_, planning_, compact_, placing_;

@@ -33,6 +33,23 @@ uniform vec2 depthRange;  // share of the way to the far end: at distance 0, per
 float depthShare;         // how much of depthColor the segment takes
 #endif
 
+#if TETRALUX_SURFACE_SHADOWS
+vec4 segmentScalars;  // at the segment's ends, least and largest of its cell
+vec3 fieldNormal;     // unit
+
+// What the isosurfaces of the segment's cell leave of light that comes from `towards`.
+float surfaceShadows(vec3 towards) {
+    float through = 1.0, rise = dot(fieldNormal, towards);
+#if TETRALUX_INTERFACES
+    for (int i = 0; i < TETRALUX_INTERFACES; ++i) {
+        through *= surfaceShadow(interfaceValue[i], opacityOf(interfaceLayer[i].w), segmentScalars.x, segmentScalars.y, segmentScalars.z,
+                                 segmentScalars.w, rise);
+    }
+#endif
+    return through;
+}
+#endif
+
 // Colour per α and α of a segment in view direction `view` (unit, towards the eye); `gradient` is the unit normal and
 // |g|, both zero where the scalar is constant; `fallSide` the sign of
 // s_f − s_b. `cutNormal` is lit where it is not zero. In modes that hide nothing depth stands
@@ -52,7 +69,10 @@ vec4 shadedSegment(float front, float back, float len, float fallSide, vec3 view
 #endif
     float depth = segment.smoothDepth + segment.otherDepth;
     float plain = depth;
-#if TETRALUX_SILHOUETTE
+#if TETRALUX_SMOOTH_SILHOUETTE
+    vec4 smoothed = smoothNormal();
+    depth = silhouetteDepth(0.0, depth, smoothed.w > 0.0 ? dot(smoothed.xyz, view) : 1.0);
+#elif TETRALUX_SILHOUETTE
     float cosine = dot(gradient.xyz, view);
 #if TETRALUX_DATA_SPACE
 #if TETRALUX_SCALE_INVARIANT
@@ -78,7 +98,7 @@ vec4 shadedSegment(float front, float back, float len, float fallSide, vec3 view
 #endif
     float opacity = opacityOf(depth);
 #if TETRALUX_APPROXIMATE_SILHOUETTE
-    if (gradient.w > 0.0) opacity = approximateSilhouetteOpacity(opacityOf(plain), plain, depth);
+    if (gradient.w > 0.0 || TETRALUX_SMOOTH_SILHOUETTE != 0) opacity = approximateSilhouetteOpacity(opacityOf(plain), plain, depth);
 #endif
     vec3 color = segment.meanColor;
 #if TETRALUX_LIGHTS

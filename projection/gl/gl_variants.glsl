@@ -6,6 +6,7 @@
 //   TETRALUX_APPROXIMATE_SILHOUETTE, TETRALUX_GRADIENT_OPACITY, TETRALUX_GRADIENT (whether anything reads the cell's gradient),
 //   TETRALUX_LENGTH (whether anything reads the segment's length)
 //   TETRALUX_FULL_LIGHT       anything but the plain lights of shading/cell_shading.glsl; TETRALUX_ATTRIBUTES: vertices have some
+//   TETRALUX_SMOOTH_SILHOUETTE, TETRALUX_SURFACE_SHADOWS: the smoothed gradient's silhouettes; cells have rows of shadows of their own
 //   TETRALUX_DATA_SPACE       extinction is integrated over the scalar's variation
 //   TETRALUX_SCALE_INVARIANT  the table is a 2D one of that integral; without it a 3D one is looked up with the path as its length
 //   TETRALUX_SAMPLED          post-classification, pre-classification where TETRALUX_SAMPLE_AT ≥ 0; TETRALUX_LINEAR_OPACITY: linear form

@@ -57,6 +57,7 @@ std::shared_ptr<const shading::VertexLight> vertexLightOf(const Scene& scene,
     if (light.shadowAt >= 0) addShadows(scene, light);
     if (light.specularAt >= 0) addSpecularFactors(scene, light);
     if (light.sampleAt >= 0) addSamples(scene, light);
+    if (light.shadowAt >= 0) addSurfaceShadows(scene, light);
     return std::make_shared<const shading::VertexLight>(std::move(light));
 }
 

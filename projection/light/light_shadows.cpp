@@ -2,19 +2,22 @@
 #include <projection/light/light_shadows.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numbers>
+#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
 
-#include <mesh/tet/cell_tree.h>
-#include <mesh/tet/triangle_tree.h>
-#include <preint/exact_integral.h>
+#include <mesh/tet/point_cells.h>
+#include <projection/light/shadow_rays.h>
 
 namespace tetralux::projection {
 
@@ -22,140 +25,10 @@ namespace {
 
 using shading::Light;
 
-constexpr double besideVertex = 1e-7;  // of the mesh's diagonal
-const glm::dvec3 besideDirection = glm::normalize(glm::dvec3(0.4142135, 0.7320508, 0.2360679));
+/// Of an area light; they lie in fours about its middle, so that half of it is half of them, and a quarter a quarter.
+constexpr int areaSamples = 32;
 
-/// What a place stands on does not shade it: opaque surfaces count from this on, of the mesh's diagonal.
-constexpr double besideSurface = 1e-6;
-
-constexpr int areaSamples = 16;
-
-/// Depth beyond which nothing arrives in float.
-constexpr double darkDepth = 100.0;
-
-/// From a vertex to a light: x = origin + t·direction, 0 ≤ t ≤ end. `direction` is a unit vector.
-struct Line {
-    glm::dvec3 origin, direction;
-    double end;
-};
-
-/// The part of a line in one cell and the scalars at its ends.
-struct Part {
-    double length = 0, front = 0, back = 0;
-};
-
-Part partIn(const mesh::ScalarMesh& mesh, mesh::CellIndex cell, const Line& line) {
-    const mesh::Tetrahedron& corners = mesh.cells[cell];
-    std::array<glm::dvec3, 4> v;  // relative to the line's origin
-    for (std::size_t k = 0; k < 4; ++k) v[k] = mesh.positions[corners[k]] - line.origin;
-    double in = 0, out = line.end, front = 0, back = 0;
-    std::array<double, 4> constant, slope;  // six volumes on each face, as functions of t
-    double whole = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-        const auto& face = mesh::faceVertices[k];
-        const glm::dvec3 &a = v[static_cast<std::size_t>(face[0])], &b = v[static_cast<std::size_t>(face[1])],
-                         &c = v[static_cast<std::size_t>(face[2])];
-        const glm::dvec3 inwards = glm::cross(c - a, b - a);
-        constant[k] = -glm::dot(inwards, a);
-        slope[k] = glm::dot(inwards, line.direction);
-        whole += constant[k];
-        if (slope[k] > 0) in = std::max(in, -constant[k] / slope[k]);
-        if (slope[k] < 0) out = std::min(out, -constant[k] / slope[k]);
-        if (slope[k] == 0 && constant[k] < 0) return {};
-    }
-    if (!(out > in) || !(whole > 0)) return {};
-    const double origin = mesh.scalarAt(cell, 0);
-    for (int k = 0; k < 4; ++k) {
-        const auto i = static_cast<std::size_t>(k);
-        const double step = (mesh.scalarAt(cell, k) - origin) / whole;
-        front += step * std::max(0.0, constant[i] + in * slope[i]);
-        back += step * std::max(0.0, constant[i] + out * slope[i]);
-    }
-    return {out - in, origin + front, origin + back};
-}
-
-using Triangles = std::vector<mesh::TriangleTree::Corners>;
-
-Triangles trianglesOf(const std::vector<std::shared_ptr<const mesh::SurfaceMesh>>& surfaces) {
-    Triangles triangles;
-    for (const auto& surface : surfaces)
-        for (const auto& [a, b, c] : surface->triangles)
-            triangles.push_back({surface->positions[a], surface->positions[b], surface->positions[c]});
-    return triangles;
-}
-
-/// Whether the line passes through the triangle beyond `least` (Möller & Trumbore 1997). Edges belong to both
-/// triangles, so that no light gets through between them.
-bool meets(const Line& line, const mesh::TriangleTree::Corners& triangle, double least) {
-    const glm::dvec3 u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
-    const glm::dvec3 across = glm::cross(line.direction, v);
-    const double whole = glm::dot(u, across);
-    if (whole == 0) return false;
-    const glm::dvec3 from = line.origin - triangle[0], other = glm::cross(from, u);
-    constexpr double rounding = 1e-12;
-    const double b = glm::dot(from, across) / whole, c = glm::dot(line.direction, other) / whole;
-    if (b < -rounding || c < -rounding || b + c > 1 + rounding) return false;
-    const double t = glm::dot(v, other) / whole;
-    return t > least && t < line.end;
-}
-
-class ShadowRays {
-public:
-    explicit ShadowRays(const Scene& scene)
-        : mesh_(*scene.mesh),
-          tree_(mesh_.positions, mesh_.cells),
-          triangles_(trianglesOf(scene.shadowCasters)),
-          surfaces_(triangles_),
-          beside_(besideSurface * mesh_.bounds.diagonal()),
-          exact_(scene.transferFunction),
-          scaleInvariant_(integralOf(scene.settings.mode) == preint::Integral::ScaleInvariant) {}
-
-    double transmittance(const Line& line) const {
-        if (hidden(line)) return 0;
-        double depth = 0;
-        tree_.forEachAlong(line.origin, line.direction, line.end, [&](mesh::CellIndex cell) {
-            depth += depthOf(partIn(mesh_, cell, line));
-            return depth < darkDepth;
-        });
-        return std::exp(-depth);
-    }
-
-private:
-    bool hidden(const Line& line) const {
-        bool hit = false;
-        surfaces_.forEachAlong(line.origin, line.direction, line.end, [&](std::uint32_t triangle) {
-            hit = meets(line, triangles_[triangle], beside_);
-            return !hit;
-        });
-        return hit;
-    }
-
-    double depthOf(const Part& part) const {
-        if (!(part.length > 0)) return 0;
-        double depth = 0;
-        for (const preint::Isosurface& surface : exact_.function().isosurfaces)
-            if ((part.front < surface.value) != (part.back < surface.value)) depth -= std::log1p(-surface.opacity);
-        const double step = part.back - part.front;
-        const double integral = exact_.extinctionIntegral(part.back) - exact_.extinctionIntegral(part.front);
-        if (scaleInvariant_) return depth + std::abs(integral);
-        // a small step cancels in the integral: its mean is then that of the middle
-        const double least =
-            1e-9 * std::max({std::abs(part.front), std::abs(part.back), mesh_.scalarMax - mesh_.scalarMin});
-        const double mean =
-            std::abs(step) > least ? integral / step : exact_.valueFromAbove(part.front + 0.5 * step).extinction;
-        return depth + part.length * mean;
-    }
-
-    const mesh::ScalarMesh& mesh_;
-    const mesh::CellTree tree_;
-    const Triangles triangles_;
-    const mesh::TriangleTree surfaces_;
-    const double beside_;
-    const preint::ExactIntegral exact_;
-    const bool scaleInvariant_;
-};
-
-/// No component zero, so that boxes can be cut (mesh/tet/cell_tree.h).
+/// No component zero, so that boxes can be cut (mesh/tet/box_tree.h).
 glm::dvec3 unitWithoutZeros(glm::dvec3 direction) {
     direction = glm::normalize(direction);
     for (int axis = 0; axis < 3; ++axis)
@@ -163,38 +36,120 @@ glm::dvec3 unitWithoutZeros(glm::dvec3 direction) {
     return direction;
 }
 
-/// Point i of a disc of radius 1 across `direction`, evenly spread (Vogel's spiral).
+/// Point i of a disc of radius 1 across `direction`, evenly spread (Vogel's spiral, four times).
 glm::dvec3 discPoint(const glm::dvec3& direction, int i) {
     const glm::dvec3 axis = std::abs(direction.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 a = glm::normalize(glm::cross(direction, axis)), b = glm::cross(direction, a);
-    const double radius = std::sqrt((i + 0.5) / areaSamples), angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    const int step = i / 4;
+    const double radius = std::sqrt((step + 0.5) / (areaSamples / 4)),
+                 angle = step * std::numbers::pi * (3 - std::sqrt(5.0)) + (i % 4) * 0.5 * std::numbers::pi;
     return radius * (std::cos(angle) * a + std::sin(angle) * b);
 }
 
-double shadowAt(const ShadowRays& rays, const Light& light, const glm::dvec3& origin, double softness) {
+double shadowAt(const ShadowRays& rays, const Light& light, const ShadowStart& start, double softness) {
     const bool point = light.kind == Light::Kind::Point;
-    const glm::dvec3 way = point ? light.position - origin : light.towards;
-    if (!(glm::dot(way, way) > 0)) return 1.0;
+    const glm::dvec3 way = point ? light.position - start.place : light.towards;
+    if (light.kind == Light::Kind::Head || !(glm::dot(way, way) > 0)) return 1.0;
     const auto lineTo = [&](const glm::dvec3& target) {
-        return Line{origin, unitWithoutZeros(target),
-                    point ? glm::length(target) : std::numeric_limits<double>::infinity()};
+        return ShadowLine{start.place, unitWithoutZeros(target),
+                          point ? glm::length(target) : std::numeric_limits<double>::infinity()};
     };
-    if (!(softness > 0)) return rays.transmittance(lineTo(way));
+    if (!(softness > 0)) return rays.transmittance(start, lineTo(way));
     const glm::dvec3 direction = glm::normalize(way);
     double sum = 0;
     for (int i = 0; i < areaSamples; ++i)
-        sum += rays.transmittance(lineTo((point ? way : direction) + softness * discPoint(direction, i)));
+        sum += rays.transmittance(start, lineTo((point ? way : direction) + softness * discPoint(direction, i)));
     return sum / areaSamples;
+}
+
+/// Where lines from the vertices of a mesh begin.
+class VertexStarts {
+public:
+    VertexStarts(const mesh::ScalarMesh& mesh, const ShadowRays& rays)
+        : mesh_(mesh), rays_(rays), around_(mesh.cells, mesh.positions.size()) {}
+
+    ShadowStart of(std::size_t point) const {
+        return {mesh_.positions[point], rays_.within(static_cast<mesh::PointIndex>(point), around_.of(point))};
+    }
+
+private:
+    const mesh::ScalarMesh& mesh_;
+    const ShadowRays& rays_;
+    const mesh::PointCells around_;
+};
+
+/// Which of a cell's isosurfaces hide its corners from each light.
+class CellSurfaces {
+public:
+    CellSurfaces(const Scene& scene, const ShadowRays& rays, mesh::CellIndex cell) {
+        const SurfaceRange surfaces = rays.surfacesIn(cell);
+        if (surfaces.empty()) return;
+        const mesh::ScalarMesh& mesh = *scene.mesh;
+        const glm::dvec3 gradient = mesh::cellGradient(mesh, cell);
+        glm::dvec3 centre(0);
+        for (const mesh::PointIndex point : mesh.cells[cell]) centre += 0.25 * mesh.positions[point];
+        for (const Light& light : scene.settings.shading.lights) {
+            const glm::dvec3 way = light.kind == Light::Kind::Point ? light.position - centre : light.towards;
+            const bool rises = glm::dot(gradient, way) > 0;
+            ends_.emplace_back(rises, rises ? surfaces.to : surfaces.from);
+        }
+    }
+
+    /// There are none.
+    bool empty() const { return ends_.empty(); }
+    /// Those between a corner on that level and light `i`.
+    SurfaceRange before(std::size_t level, std::size_t i) const {
+        const auto [rises, end] = ends_[i];
+        return rises ? SurfaceRange{level, end} : SurfaceRange{end, level};
+    }
+    bool anyBefore(std::size_t level) const {
+        for (std::size_t i = 0; i < ends_.size(); ++i)
+            if (!before(level, i).empty()) return true;
+        return false;
+    }
+    bool operator<(const CellSurfaces& other) const { return ends_ < other.ends_; }
+
+private:
+    /// Per light: whether the scalar rises towards it, and the level on that side of the cell.
+    std::vector<std::pair<bool, std::size_t>> ends_;
+};
+
+/// A vertex as corner of cells with the same isosurfaces: one row of attributes.
+struct SurfaceCorner {
+    mesh::PointIndex point;
+    const CellSurfaces* surfaces;
+};
+
+/// Numbers the corners that need rows of their own from `first` on, and lets their cells refer to them.
+std::vector<SurfaceCorner> surfaceCorners(const Scene& scene, const ShadowRays& rays,
+                                          std::map<CellSurfaces, std::uint32_t>& cases,
+                                          std::vector<mesh::Tetrahedron>& corners) {
+    const mesh::ScalarMesh& mesh = *scene.mesh;
+    std::vector<SurfaceCorner> found;
+    std::unordered_map<std::uint64_t, mesh::PointIndex> rows;  // by case and point
+    for (mesh::CellIndex cell = 0; cell < mesh.cells.size(); ++cell) {
+        CellSurfaces surfaces(scene, rays, cell);
+        if (surfaces.empty()) continue;
+        const auto number = static_cast<std::uint32_t>(cases.size());
+        const auto [place, isNew] = cases.emplace(std::move(surfaces), number);
+        for (mesh::PointIndex& corner : corners[cell]) {
+            if (!place->first.anyBefore(rays.level(mesh.scalars[corner]))) continue;
+            const auto next = static_cast<mesh::PointIndex>(mesh.positions.size() + found.size());
+            const auto [row, added] = rows.emplace(std::uint64_t{place->second} << 32 | corner, next);
+            if (added) found.push_back({corner, &place->first});
+            corner = row->second;
+        }
+    }
+    return found;
 }
 
 }  // namespace
 
 ShadowAt shadowsOf(const Scene& scene) {
     const auto rays = std::make_shared<const ShadowRays>(scene);
-    const glm::dvec3 beside = besideVertex * scene.mesh->bounds.diagonal() * besideDirection;
-    return [mesh = scene.mesh, rays, beside, softness = scene.settings.shading.shadows.softness](
-               const Light& light, const glm::dvec3& place) {
-        return light.kind == Light::Kind::Head ? 1.0 : shadowAt(*rays, light, place + beside, softness);
+    return [mesh = scene.mesh, rays, softness = scene.settings.shading.shadows.softness](const Light& light,
+                                                                                         const glm::dvec3& place) {
+        return shadowAt(*rays, light, {place, rays->within(place)}, softness);
     };
 }
 
@@ -202,14 +157,43 @@ void addShadows(const Scene& scene, shading::VertexLight& light) {
     const auto& settings = scene.settings.shading;
     const mesh::ScalarMesh& mesh = *scene.mesh;
     const ShadowRays rays(scene);
-    const glm::dvec3 beside = besideVertex * mesh.bounds.diagonal() * besideDirection;
+    const VertexStarts starts(mesh, rays);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.positions.size(), 64), [&](const auto& range) {
-        for (std::size_t vertex = range.begin(); vertex != range.end(); ++vertex)
+        for (std::size_t vertex = range.begin(); vertex != range.end(); ++vertex) {
+            const ShadowStart start = starts.of(vertex);
+            for (std::size_t i = 0; i < settings.lights.size(); ++i)
+                light.of(vertex)[static_cast<std::size_t>(light.shadowAt) + i] =
+                    static_cast<float>(shadowAt(rays, settings.lights[i], start, settings.shadows.softness));
+        }
+    });
+}
+
+void addSurfaceShadows(const Scene& scene, shading::VertexLight& light) {
+    const auto& settings = scene.settings.shading;
+    const mesh::ScalarMesh& mesh = *scene.mesh;
+    const ShadowRays rays(scene);
+    if (!rays.hasSurfaces()) return;
+    const VertexStarts starts(mesh, rays);
+    std::map<CellSurfaces, std::uint32_t> cases;
+    std::vector<mesh::Tetrahedron> corners(mesh.cells.begin(), mesh.cells.end());
+    const std::vector<SurfaceCorner> own = surfaceCorners(scene, rays, cases, corners);
+    if (own.empty()) return;
+    light.corners = std::move(corners);
+    const std::size_t points = mesh.positions.size();
+    light.values.resize((points + own.size()) * static_cast<std::size_t>(light.stride));
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, own.size(), 64), [&](const auto& range) {
+        for (std::size_t k = range.begin(); k != range.end(); ++k) {
+            const SurfaceCorner& corner = own[k];
+            std::copy_n(light.of(corner.point), light.stride, light.of(points + k));
+            ShadowStart start = starts.of(corner.point);
+            const std::size_t level = rays.level(mesh.scalars[corner.point]);
             for (std::size_t i = 0; i < settings.lights.size(); ++i) {
-                if (settings.lights[i].kind == Light::Kind::Head) continue;
-                light.of(vertex)[static_cast<std::size_t>(light.shadowAt) + i] = static_cast<float>(
-                    shadowAt(rays, settings.lights[i], mesh.positions[vertex] + beside, settings.shadows.softness));
+                start.passed = corner.surfaces->before(level, i);
+                if (start.passed.empty()) continue;
+                light.of(points + k)[static_cast<std::size_t>(light.shadowAt) + i] =
+                    static_cast<float>(shadowAt(rays, settings.lights[i], start, settings.shadows.softness));
             }
+        }
     });
 }
 

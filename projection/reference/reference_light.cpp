@@ -11,10 +11,7 @@
 
 namespace tetralux::projection {
 
-namespace {
-
-/// Barycentric coordinates of `x` in a cell, brought inside where rounding left them beyond.
-std::array<double, 4> coordinatesIn(const mesh::ScalarMesh& mesh, mesh::CellIndex cell, const glm::dvec3& x) {
+std::array<double, 4> innerCoordinates(const mesh::ScalarMesh& mesh, mesh::CellIndex cell, const glm::dvec3& x) {
     const mesh::Tetrahedron& corners = mesh.cells[cell];
     std::array<double, 4> weights;
     double sum = 0;
@@ -28,13 +25,15 @@ std::array<double, 4> coordinatesIn(const mesh::ScalarMesh& mesh, mesh::CellInde
     return weights;
 }
 
-/// The vertices' attributes at the middle of a segment.
+namespace {
+
+/// The vertices' attributes at a place in a cell.
 class AttributesAt {
 public:
-    AttributesAt(const Scene& scene, const SegmentToLight& segment) : light_(*scene.vertexLight) {
+    AttributesAt(const Scene& scene, mesh::CellIndex cell, const glm::dvec3& place) : light_(*scene.vertexLight) {
         if (!light_.any()) return;
-        corners_ = scene.mesh->cells[segment.cell];
-        weights_ = coordinatesIn(*scene.mesh, segment.cell, segment.middle);
+        corners_ = light_.cornersOf(cell, scene.mesh->cells[cell]);
+        weights_ = innerCoordinates(*scene.mesh, cell, place);
     }
     double at(int place) const {
         double sum = 0;
@@ -67,12 +66,31 @@ glsl::LightModel modelOf(const shading::ShadingSettings& settings) {
             material.phaseAsymmetry.value_or(0.0)};
 }
 
+/// What the isosurfaces of the segment's cell leave of a light that comes from `towards`.
+double surfaceShadows(const Scene& scene, const SegmentToLight& segment, const glm::dvec3& towards) {
+    if (scene.vertexLight->corners.empty()) return 1.0;
+    double low = scene.mesh->scalarAt(segment.cell, 0), high = low, through = 1.0;
+    for (int k = 1; k < 4; ++k) {
+        low = std::min(low, scene.mesh->scalarAt(segment.cell, k));
+        high = std::max(high, scene.mesh->scalarAt(segment.cell, k));
+    }
+    const double rise = glm::dot(segment.fieldNormal, towards);
+    for (const preint::Isosurface& surface : scene.transferFunction.isosurfaces)
+        through *=
+            glsl::surfaceShadow(surface.value, surface.opacity, segment.front, segment.back, low, high, rise);
+    return through;
+}
+
 }  // namespace
+
+glm::dvec3 smoothGradient(const Scene& scene, mesh::CellIndex cell, const glm::dvec3& x) {
+    return AttributesAt(scene, cell, x).vectorAt(scene.vertexLight->normalAt);
+}
 
 glm::dvec3 litColor(const Scene& scene, const SegmentToLight& segment) {
     const shading::ShadingSettings& settings = scene.settings.shading;
     const shading::VertexLight& kept = *scene.vertexLight;
-    const AttributesAt attributes(scene, segment);
+    const AttributesAt attributes(scene, segment.cell, segment.middle);
     glsl::LightModel model = modelOf(settings);
     if (kept.specularAt >= 0) {
         const double factor = attributes.at(kept.specularAt);
@@ -97,7 +115,9 @@ glm::dvec3 litColor(const Scene& scene, const SegmentToLight& segment) {
     for (std::size_t i = 0; i < settings.lights.size(); ++i) {
         const ArrivingLight source =
             arrivingLight(settings.lights[i], segment.middle, segment.direction, segment.fromEye);
-        const double shadow = kept.shadowAt >= 0 ? attributes.at(kept.shadowAt + static_cast<int>(i)) : 1.0;
+        double shadow = 1.0;
+        if (kept.shadowAt >= 0)
+            shadow = attributes.at(kept.shadowAt + static_cast<int>(i)) * surfaceShadows(scene, segment, source.towards);
         light += shadow * source.color * glsl::modelTerm(model, point, segment.color, source.towards);
     }
     return light;

@@ -298,7 +298,12 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
         shading.needsGradient() ? mesh::cellSlope(*scene.mesh, segment.cell) : mesh::CellSlope{glm::dvec3(0), 0};
     const auto& [normal, magnitude] = slope;
     const double variation = std::abs(segment.scalarOut - segment.scalarIn);
-    if (shading.silhouette && slope.any()) {
+    const bool enhanced = shading.silhouette && (shading.smoothSilhouettes() || slope.any());
+    if (shading.smoothSilhouettes()) {
+        const glm::dvec3 gradient = smoothGradient(scene, segment.cell, middle);
+        const double size = glm::length(gradient);
+        depth = glsl::silhouetteDepth(0.0, depth, size > 0 ? glm::dot(gradient, ray.direction) / size : 1.0);
+    } else if (enhanced) {
         const double cosine = glm::dot(normal, ray.direction);
         double smoothTimesK = 0.0, other = depth;
         if (integral == preint::Integral::ScaleInvariant) {
@@ -321,7 +326,7 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
     depth = depth > 0 && factor > 0 ? depth * factor : 0.0;
     plain = plain > 0 && factor > 0 ? plain * factor : 0.0;
     double opacity = -std::expm1(-depth);
-    if (shading.silhouette && shading.approximateSilhouette && slope.any())
+    if (shading.approximateSilhouette && enhanced)
         opacity = glsl::approximateSilhouetteOpacity(-std::expm1(-plain), std::min(plain, 1e30), std::min(depth, 1e60));
     const double weight = hides ? opacity : depth;
     const double fromEye = 0.5 * segment.tIn + 0.5 * segment.tOut;
@@ -334,6 +339,9 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
     lit.direction = ray.direction;
     lit.fromEye = fromEye;
     lit.normal = cut ? cutNormal : normal;
+    lit.fieldNormal = normal;
+    lit.front = segment.scalarIn;
+    lit.back = segment.scalarOut;
     lit.cut = cut;
     lit.side = cut ? 1.0 : signOfFall(segment, glm::dot(normal, ray.direction));
     lit.color = meanColor;

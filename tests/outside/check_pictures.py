@@ -14,6 +14,7 @@ import subprocess
 import sys
 
 import exr
+import vertex_light
 from ray_caster import Camera, Cell, TransferFunction, pixel
 
 SIZE = (48, 40)
@@ -21,6 +22,8 @@ PIXELS = 24  # per case
 # largest difference of a component. reference: an EXR holds floats; cpu: float sums, closed forms to 1e-6, half-way vectors of nearly opposite ones; gl: tables made for 1e-4
 LIMITS = {"reference": 1e-7, "cpu": 1e-5, "gl": 1e-4}
 NOT_OF_LIGHT = ("silhouette", "clips", "clip_options", "cut_layer")
+# silhouettes multiply what tables are off by k; ways to lights begin at points of one's own choice beside vertices
+SMOOTH_LIMITS, SHADOW_LIMITS = {"reference": 3e-7, "cpu": 2e-5, "gl": 3e-4}, {"reference": 1e-4, "cpu": 1e-4, "gl": 2e-4}
 CONTEXTS = {"gl": ["egl", "osmesa"]}
 FIVE = (((0, 1, 2, 4), (1, 3, 2, 7), (1, 2, 4, 7), (1, 4, 5, 7), (2, 6, 4, 7)), ((1, 0, 3, 5), (0, 2, 3, 6), (0, 3, 5, 6), (0, 5, 4, 6), (3, 5, 6, 7)))
 
@@ -105,6 +108,18 @@ def cuts(lit):
         yield name, dict(lit, clips=planes, clip_options=options, cut_layer=layer)
 
 
+def carried(lit):
+    """What vertices carry: shadows of the volume and of isosurfaces, which shade others but not themselves, and smoothed gradients."""
+    lamp = {"type": "point", "position": [0.6, 0.9, 1.4], "color": [1, 0.9, 0.8], "attenuation": [1, 0, 0.2]}
+    back, side = towards(-1.4, -0.9, -1.8), towards(2, -1, -0.8)
+    yield "shadows", dict(lit, shadows=True)
+    yield "shadows of lamps", dict(lit, lights=[lamp, back], shadows=True)
+    yield "shadows along the axes", dict(lit, lights=[towards(0, 0, 1), towards(-1, 0, 0)], shadows=True, silhouette=True)
+    yield "shadows on smooth normals", dict(lit, lights=[side, lamp], shadows=True, normals="smooth")
+    yield "smooth silhouettes", dict(look_of([]), silhouette=True, normals="smooth")
+    yield "smooth silhouettes in light", dict(lit, silhouette=True, normals="smooth")
+
+
 def cases():
     outside, inside = Camera((1.9, 1.4, 2.3), (0.5, 0.5, 0.5)), Camera((0.43, 0.55, 0.61), (0.9, 0.2, 0.1), fov=70.0)
     flat = Camera((0.5, 0.5, 3.0), (0.5, 0.5, 0.5), height=1.3)
@@ -119,6 +134,10 @@ def cases():
     for k, (name, look) in enumerate(lights().items()):
         mode, camera = ("standard", "scale-invariant")[k % 2], (outside, outside, flat)[k % 3]
         yield f"{mode} {name}", mode, PEAKS[:2], camera, dict(look, silhouette=k % 4 > 1)
+    for mode in ("standard", "scale-invariant"):
+        for peaks in ([], PEAKS):
+            for name, look in carried(lit):
+                yield f"{mode} {'isosurfaces ' if peaks else ''}{name}", mode, peaks, outside, look
     for k, (name, look) in enumerate(cuts(lit)):
         for camera in (outside, (flat, inside)[k % 2]):
             yield f"{'standard' if k % 2 else 'scale-invariant'} cut {name}", "standard" if k % 2 else "scale-invariant", PEAKS, camera, look
@@ -134,6 +153,7 @@ def draw(program, mesh, transfer, out, mode, camera, look, engine):
                "--eye=" + triple(camera.eye), "--target=" + triple(camera.target)]
     command += ["--height", repr(camera.height)] if camera.height else ["--fov", repr(camera.fov)]
     command += ["--silhouette"] if look["silhouette"] else []
+    command += ["--normals", look["normals"]] if "normals" in look else []
     if look["lights"]:
         lighting = out + ".lighting.json"
         with open(lighting, "w") as file:
@@ -158,17 +178,20 @@ def main(program, folder):
         points, scalars, tetrahedra = jittered_grid(5, 3, flat_middle)
         path = os.path.join(folder, "flat_middle.vtk" if flat_middle else "mesh.vtk")
         write_vtk(path, points, scalars, tetrahedra)
-        meshes[flat_middle] = path, [Cell([points[i] for i in tet], [scalars[i] for i in tet]) for tet in tetrahedra]
+        cells = [Cell([points[i] for i in tet], [scalars[i] for i in tet]) for tet in tetrahedra]
+        meshes[flat_middle] = path, points, scalars, tetrahedra, cells
     failures, rng = 0, random.Random(7)
     for name, mode, peaks, camera, look in cases():
-        description, (mesh, cells) = dict(TRANSFER, isosurfaces=peaks), meshes["clips" in look]
+        description, (mesh, *parts, cells) = dict(TRANSFER, isosurfaces=peaks), meshes["clips" in look]
+        vertex_light.carry(*parts, cells, TransferFunction(description), mode, look)
         with open(transfer, "w") as out:
             json.dump(description, out)
         wanted = {}
         for _ in range(PIXELS):
             x, y = rng.randrange(SIZE[0] // 4, 3 * SIZE[0] // 4), rng.randrange(SIZE[1] // 4, 3 * SIZE[1] // 4)
             wanted[x, y] = pixel(cells, camera, TransferFunction(description), mode, look, x, y, SIZE)
-        for engine, limit in LIMITS.items():
+        limits = SHADOW_LIMITS if look.get("shadows") else SMOOTH_LIMITS if "normals" in look else LIMITS
+        for engine, limit in limits.items():
             for context in CONTEXTS.get(engine, [None]):
                 options = ["--engine", engine] + (["--context", context] if context else [])
                 rows = draw(program, mesh, transfer, picture, mode, camera, look, options)

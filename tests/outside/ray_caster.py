@@ -6,31 +6,13 @@ integrals are sums of Gauss-Legendre quadrature between the transfer function's 
 """
 import math
 
+import vertex_light
+from vectors import along, cross, dot, sub, unit
+
 # Gauss-Legendre, eight points on [-1, 1]: exact for polynomials of degree 15.
 _POINTS = [0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363]
 _WEIGHTS = [0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763]
 QUADRATURE = [(0.5 + 0.5 * s * x, 0.5 * w) for x, w in zip(_POINTS, _WEIGHTS) for s in (-1, 1)]
-
-
-def sub(a, b):
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def dot(a, b):
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def along(a, t, d):
-    return (a[0] + t * d[0], a[1] + t * d[1], a[2] + t * d[2])
-
-
-def unit(a):
-    length = math.sqrt(dot(a, a))
-    return (a[0] / length, a[1] / length, a[2] / length)
 
 
 class Camera:
@@ -72,6 +54,10 @@ class Cell:
             elif here < 0:
                 return None
         return (enter, leave) if enter < leave else None
+
+    def coordinates(self, p):
+        offset = sub(p, self.origin)
+        return [dot(normal, offset) + (i == 0) for i, normal in enumerate(self.normals)]
 
     def scalar(self, p):
         return self.scalars[0] + dot(self.gradient, sub(p, self.origin))
@@ -150,14 +136,16 @@ def arriving(light, place, view, from_eye):
     return towards, [c / (constant + distance * (linear + distance * quadratic)) for c in light["color"]]
 
 
-def _lit(color, opacity, normal, d, facing, look, place, from_eye):
-    """Equation 19, all five terms. `facing` has the sign of v·n; lights are taken at the segment's middle, `place`."""
+def _lit(color, opacity, normal, d, facing, look, place, from_eye, left):
+    """Equation 19, all five terms. `facing` has the sign of v·n; lights are taken at the segment's middle, `place`, where left(k, towards)
+    is what of light k is left by shadows."""
     diffuse, material, view = [c / opacity for c in color], look["material"], tuple(-x for x in d)
     out = [look["ambient"][i] * color[i] for i in range(3)]
     if normal is None:
         return out
-    for light in look["lights"]:
+    for k, light in enumerate(look["lights"]):
         towards, intensity = arriving(light, place, view, from_eye)
+        intensity = [left(k, towards) * c for c in intensity]
         side = dot(towards, normal)
         if side * facing > 0:
             seen = material["front" if facing > 0 else "back"]
@@ -218,17 +206,22 @@ def pixel(cells, camera, tf, mode, look, x, y, size):
         if opacity <= 0:
             continue
         size_of_gradient = math.sqrt(dot(cell.gradient, cell.gradient))
-        slope = dot(cell.gradient, d)
+        middle = (enter + leave) / 2
+        place, gradient = along(origin, middle, d), cell.gradient
+        if look.get("normals") == "smooth":
+            gradient = vertex_light.smooth_gradient(cell, place)
+            size_of_gradient = math.sqrt(dot(gradient, gradient))
+        slope = dot(gradient, d)
         if look["silhouette"] and slope != 0:
             enhanced = 1 - (1 - opacity) ** (size_of_gradient / abs(slope))
             emitted = [c * enhanced / opacity for c in emitted]
             opacity = enhanced
         if look["lights"]:
-            normal, facing = unit(cell.gradient) if size_of_gradient > 0 else None, (front > back) - (front < back)
+            normal, facing = unit(gradient) if size_of_gradient > 0 else None, (front > back) - (front < back)
             if cut:
                 normal, facing = cut, 1
-            middle = (enter + leave) / 2
-            emitted = _lit(emitted, opacity, normal, d, facing, look, along(origin, middle, d), middle)
+            left = lambda k, towards: vertex_light.light_left(cell, tf, k, towards, place, front, back) if look.get("shadows") else 1.0
+            emitted = _lit(emitted, opacity, normal, d, facing, look, place, middle, left)
         for i in range(3):
             color[i] += transparency * emitted[i]
         transparency *= 1 - opacity

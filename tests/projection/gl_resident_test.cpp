@@ -122,7 +122,7 @@ TEST(Resident, BrokenRelationsAreNoticed) {
     const auto gl = loadGlFunctions(*context);
     for (const View& view : views())
         for (const OrderKeys* keys : {&sorter.keys(), &centroid}) {
-            GlResidentCells cells(*gl, m, sceneUnits(m), all, keys, &sorter.adjacency(), {});
+            GlResidentCells cells(*gl, m, sceneUnits(m), all, keys, &sorter.adjacency(), {}, {});
             const CameraFrame frame = cameraFrame(view.camera);
             GlFrameTarget target(*gl);
             target.begin(frame.width, frame.height, 0.0f);

@@ -179,7 +179,7 @@ TEST_P(TileParts, RoomGrowsByWhatWasMissing) {
     std::vector<mesh::CellIndex> all(m.cells.size());
     std::iota(all.begin(), all.end(), mesh::CellIndex{0});
     const std::size_t chunk = 300;  // several chunks, the last of them not full
-    GlResidentCells cells(*gl, m, sceneUnits(m), all, nullptr, nullptr, {}, chunk);
+    GlResidentCells cells(*gl, m, sceneUnits(m), all, nullptr, nullptr, {}, {}, chunk);
     ASSERT_GT(all.size(), 3 * chunk);
     ASSERT_EQ(cells.chunkCells(), chunk);
     GlTiles tiles(*gl, {}, chunk, 8);

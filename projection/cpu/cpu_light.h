@@ -90,7 +90,7 @@ struct CornerValues {
     }
 };
 
-/// Unit smoothed gradient (shading::Normals::Smooth), and where there is one.
+/// Unit smoothed gradient (shading::Normals::Smooth), and where there is one; else 0.
 struct SmoothNormal {
     vec3 normal;
     mask any;
@@ -99,7 +99,8 @@ HWY_INLINE SmoothNormal smoothNormalAt(const shading::VertexLight& kept, const f
                                        const real (&weights)[4]) {
     const vec3 gradient = vectorAt(values, kept.normalAt, weights);
     const real square = dot(gradient, gradient);
-    return {real(1.0f) / sqrt(max(square, real(1e-30f))) * gradient, square > real(1e-30f)};
+    const mask any = square > real(1e-30f);
+    return {keep(any, real(1.0f) / sqrt(max(square, real(1e-30f)))) * gradient, any};
 }
 
 /// ḡ·d/|ḡ| of silhouettes that follow the smoothed gradient ḡ; 1 where there is none.
@@ -190,8 +191,7 @@ inline HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& ba
     if (segment.cut != nullptr) {
         point.normal = worldFromCamera(frame, *segment.cut);
     } else if (kept.normalAt >= 0) {
-        const SmoothNormal smooth = smoothNormalAt(kept, values, weights);
-        point.normal = keep(smooth.any, real(1.0f)) * smooth.normal;
+        point.normal = smoothNormalAt(kept, values, weights).normal;
     } else if (batch.gradient[j] > 0) {
         point.normal =
             worldFromCamera(frame, vec3(real(batch.normal[0][j]), real(batch.normal[1][j]), real(batch.normal[2][j])));

@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
 set(library_targets)
-foreach(part mesh preint shading projection)
+foreach(part mesh io preint shading projection)
   add_library(tetralux::${part} ALIAS tetralux_${part})
   set_target_properties(tetralux_${part} PROPERTIES EXPORT_NAME ${part})
   list(APPEND library_targets tetralux_${part})

@@ -20,7 +20,7 @@ add_library(tetralux_bench STATIC
   run_program.cpp
 )
 target_compile_definitions(tetralux_bench PRIVATE TETRALUX_VERSION="${PROJECT_VERSION}")
-target_link_libraries(tetralux_bench PUBLIC tetralux_plot tetralux_projection nlohmann_json::nlohmann_json PRIVATE fmt::fmt TBB::tbb)
+target_link_libraries(tetralux_bench PUBLIC tetralux_plot tetralux_projection tetralux_io nlohmann_json::nlohmann_json PRIVATE fmt::fmt TBB::tbb)
 
 target_sources(tetralux PRIVATE bench.cpp bench_options.cpp)
 target_link_libraries(tetralux PRIVATE tetralux_bench)

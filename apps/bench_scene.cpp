@@ -126,7 +126,7 @@ std::vector<std::string> benchSources(const std::vector<std::string>& scenes, co
 }
 
 std::shared_ptr<const mesh::ScalarMesh> readBenchMesh(const std::string& source) {
-    mesh::ReadResult read = mesh::readMesh(source);
+    mesh::ReadResult read = mesh::readMesh(source, mesh::isolatedReading());
     try {
         mesh::ScalarSelection selection = mesh::selectScalar(std::move(read.mesh), "", read.report);
         return std::make_shared<const mesh::ScalarMesh>(std::move(selection.mesh));

@@ -89,7 +89,7 @@ projection::OpaqueObjects readOpaqueObjects(const OpaqueOptions& options) {
         objects.slices[i].opacity = options.sliceOpacities[opacities > 1 ? i : 0];
     for (std::size_t i = 0; i < surfaces; ++i) {
         projection::OpaqueSurface surface;
-        surface.mesh = std::make_shared<const mesh::SurfaceMesh>(mesh::readSurface(options.surfaces[i]));
+        surface.mesh = std::make_shared<const mesh::SurfaceMesh>(mesh::readSurface(options.surfaces[i], true));
         if (colors > 0) surface.color = options.surfaceColors[colors > 1 ? i : 0];
         surface.flat = options.flat;
         objects.surfaces.push_back(std::move(surface));

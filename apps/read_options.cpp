@@ -14,6 +14,7 @@ void addReadOptions(CLI::App& command, mesh::ReadOptions& options) {
         "a whole number from 1 to 64", "pieces along each edge of a curved cell; default: its order");
     addNumber<double>(command, "--merge", options.mergeTolerance, notNegative, "a length in mesh units, from 0",
                       "points within this distance become one");
+    options.isolated = true;
     command.add_flag("--smooth-cells", options.smoothCells, "cell fields become point fields, by averaging");
 }
 

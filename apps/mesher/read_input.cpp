@@ -31,11 +31,11 @@ PolygonSoup readSurfaceFile(const std::string& path) {
 Input readInput(const std::string& source, std::vector<std::string>& leftOut) {
     const std::string ending = lowerEnding(source);
     std::error_code ignored;
-    if (std::filesystem::is_directory(source, ignored)) return mesh::readMesh(source);
+    if (std::filesystem::is_directory(source, ignored)) return mesh::readMesh(source, mesh::isolatedReading());
     if (ending == ".csv" || ending == ".xyz" || ending == ".txt") return readPointsText(source);
     if (ending == ".stl" || ending == ".off" || ending == ".obj" || ending == ".ply") return readSurfaceFile(source);
     if (ending == ".vtp" || (ending == ".vtk" && isLegacyPolyData(source))) return readPolyData(source, &leftOut);
-    return mesh::readMesh(source);
+    return mesh::readMesh(source, mesh::isolatedReading());
 }
 
 }  // namespace tetralux::mesher

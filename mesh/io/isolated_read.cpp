@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <new>
 #include <stdexcept>
 
@@ -22,6 +23,7 @@
 
 #include <mesh/io/file_checks.h>
 #include <mesh/io/soup_transfer.h>
+#include <mesh/io/vtk_soup.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -173,7 +175,19 @@ std::string readText(int file) {
     throw std::runtime_error(fmt::format("{}: {}", source, why));
 }
 
-}  // namespace
+/// In this process. Neither VTK's messages nor the libraries below its readers are made for threads.
+CellSoup readHere(const std::string& source, const std::function<CellSoup()>& read) {
+    static std::recursive_mutex one;  // a list of files reads them while it is read
+    const std::lock_guard lock(one);
+    const SilentVtk silent;
+    try {
+        return read();
+    } catch (const std::bad_alloc&) {
+        refuse(source, "asks for more memory than there is; if it is not damaged, take a larger machine");
+    } catch (const std::exception& error) {
+        refuse(source, error.what());
+    }
+}
 
 CellSoup readIsolated(const std::string& source, const std::function<CellSoup()>& read) {
     const Descriptor result(::memfd_create("tetralux-mesh", MFD_CLOEXEC));
@@ -219,6 +233,12 @@ CellSoup readIsolated(const std::string& source, const std::function<CellSoup()>
         refuse(source, "its reader did not finish; there may be too little memory");
     }
     return soup;
+}
+
+}  // namespace
+
+CellSoup readThirdParty(const std::string& source, bool isolated, const std::function<CellSoup()>& read) {
+    return isolated ? readIsolated(source, read) : readHere(source, read);
 }
 
 }  // namespace tetralux::mesh

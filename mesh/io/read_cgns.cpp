@@ -21,7 +21,7 @@ CellSoup readCgns(const std::string& source, const ReadOptions& options) {
                     "ADF",
                     "\x89HDF"},
                    "a CGNS file (ADF or HDF5)");
-    return readIsolated(source, [&] {
+    return readThirdParty(source, options.isolated, [&] {
         captureVtkMessages();
         vtkNew<vtkCGNSReader> reader;
         reader->SetFileName(source.c_str());

@@ -103,7 +103,7 @@ CellSoup readCase(const std::string& file, std::optional<double> time) {
 CellSoup readEnsight(const std::string& source, const ReadOptions& options) {
     checkReadable(source);
     const TemporaryFolder folder(source);
-    return readIsolated(source, [&] {
+    return readThirdParty(source, options.isolated, [&] {
         const bool changed = fillFolder(source, folder);
         try {
             CellSoup soup = readCase((folder.path() / plainCase).string(), options.time);

@@ -94,7 +94,7 @@ void refuseUnknownElements(const std::string& source) {
 
 CellSoup readExodus(const std::string& source, const ReadOptions& options) {
     checkBeginning(source, {"CDF\x01", "CDF\x02", "CDF\x05", "\x89HDF"}, "an Exodus file (NetCDF)");
-    return readIsolated(source, [&] {
+    return readThirdParty(source, options.isolated, [&] {
         refuseUnknownElements(source);
         captureVtkMessages();
         vtkNew<vtkExodusIIReader> reader;

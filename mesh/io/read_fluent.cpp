@@ -16,9 +16,9 @@ bool acceptsFluent(const std::string& source) {
 
 /// Values come from the .dat beside it. VTK's reader calls it an error if that is not there; the mesh can be shown all
 /// the same.
-CellSoup readFluent(const std::string& source, const ReadOptions&) {
+CellSoup readFluent(const std::string& source, const ReadOptions& options) {
     checkBeginning(source, {"("}, "a case of ANSYS Fluent");
-    return readIsolated(source, [&] {
+    return readThirdParty(source, options.isolated, [&] {
         captureVtkMessages();
         vtkNew<vtkFLUENTReader> reader;
         reader->SetFileName(source.c_str());

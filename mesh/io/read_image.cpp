@@ -140,13 +140,13 @@ CellSoup readMetaImage(const std::string& source) {
     return soup;
 }
 
-CellSoup readImage(const std::string& source, const ReadOptions&) {
+CellSoup readImage(const std::string& source, const ReadOptions& options) {
     checkReadable(source);
     if (hasExtension(source, {".nrrd", ".nhdr"})) {
         return readNrrd(source);
     }
     checkMetaFiles(source);
-    return readIsolated(source, [&] { return readMetaImage(source); });
+    return readThirdParty(source, options.isolated, [&] { return readMetaImage(source); });
 }
 
 }  // namespace

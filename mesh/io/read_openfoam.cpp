@@ -137,7 +137,7 @@ CellSoup readOpenFoam(const std::string& source, const ReadOptions& options) {
                             : hasExtension(source, {"controlDict"}) ? given.parent_path().parent_path()
                                                                     : given.parent_path();
     const TemporaryFolder links(source);
-    return readIsolated(source, [&] {
+    return readThirdParty(source, options.isolated, [&] {
         captureVtkMessages();
         const std::vector<fs::path> processors = processorsOf(folder);
         return processors.empty() ? readCase(file, options.time)

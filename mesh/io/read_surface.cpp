@@ -133,7 +133,7 @@ CellSoup trianglesOf(vtkPolyData* surface) {
 
 }  // namespace
 
-SurfaceMesh readSurface(const std::string& path) {
+SurfaceMesh readSurface(const std::string& path, bool isolated) {
     const PolygonReader read = readerFor(path);
     std::error_code failed;
     if (!std::filesystem::exists(path, failed))
@@ -144,7 +144,7 @@ SurfaceMesh readSurface(const std::string& path) {
     if (hasExtension(path, {".stl"})) checkStlSize(path);
     // our own parser needs no process of its own; VTK makes triangles of what it found
     const vtkSmartPointer<vtkPolyData> parsed = read == readOff ? readOff(path) : nullptr;
-    const CellSoup soup = readIsolated(path, [&] {
+    const CellSoup soup = readThirdParty(path, isolated, [&] {
         captureVtkMessages();
         const vtkSmartPointer<vtkPolyData> polygons = parsed != nullptr ? parsed : read(path);
         throwOnVtkError();

@@ -37,7 +37,7 @@ void refuseAbaqus(const std::string& source) {
 CellSoup readUcd(const std::string& source, const ReadOptions& options) {
     checkReadable(source);
     refuseAbaqus(source);
-    return readIsolated(source, [&] {
+    return readThirdParty(source, options.isolated, [&] {
         const std::string text = readWholeFile(source);
         const bool isText = text.find('\0') == std::string::npos;
         const std::optional<PlainText> plain = isText ? withPlainNumbers(text, {}) : std::nullopt;

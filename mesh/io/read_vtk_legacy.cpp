@@ -50,9 +50,9 @@ std::optional<std::string> plainLegacy(const std::string& source) {
     return plain->beyondFloat ? withDoubles(std::move(plain->text)) : std::move(plain->text);
 }
 
-CellSoup readLegacyVtk(const std::string& source, const ReadOptions&) {
+CellSoup readLegacyVtk(const std::string& source, const ReadOptions& options) {
     checkReadable(source);
-    return readIsolated(source, [&] {
+    return readThirdParty(source, options.isolated, [&] {
         vtkNew<vtkGenericDataObjectReader> reader;
         const std::optional<std::string> plain = plainLegacy(source);
         if (plain) {

@@ -74,7 +74,7 @@ CellSoup readVtkXml(const std::string& source, const ReadOptions& options) {
             return std::move(*soup);
         }
     }
-    return readIsolated(source, [&] {
+    return readThirdParty(source, options.isolated, [&] {
         const VtkXmlText plain = plainVtkXml(source);
         return plain.files.empty() ? readByExtension(source, options.time) : readFiles(plain, options.time);
     });

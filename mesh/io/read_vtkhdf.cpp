@@ -280,7 +280,7 @@ CellSoup readGroup(const Hdf5Group& group, std::optional<double> time) {
 
 CellSoup readVtkHdf(const std::string& source, const ReadOptions& options) {
     checkBeginning(source, {"\x89HDF"}, "a VTKHDF file (HDF5)");
-    return readIsolated(source, [&] {
+    return readThirdParty(source, options.isolated, [&] {
         const Hdf5Group file(source);
         const std::optional<Hdf5Group> root = file.group("VTKHDF");
         if (!root) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <vtkAlgorithm.h>
 #include <vtkInformation.h>
+#include <vtkLogger.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
@@ -87,6 +88,18 @@ const char* remedyFor(std::string_view message) {
 
 void captureVtkMessages() {
     vtkOutputWindow::SetInstance(vtkSmartPointer<SilentWindow>::New());
+}
+
+SilentVtk::SilentVtk() : before_(vtkOutputWindow::GetInstance()), logged_(vtkLogger::GetCurrentVerbosityCutoff()) {
+    before_->Register(nullptr);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+    captureVtkMessages();
+}
+
+SilentVtk::~SilentVtk() {
+    vtkOutputWindow::SetInstance(before_);
+    before_->UnRegister(nullptr);
+    vtkLogger::SetStderrVerbosity(static_cast<vtkLogger::Verbosity>(logged_));
 }
 
 void throwOnVtkError() {

@@ -10,6 +10,7 @@
 
 class vtkAlgorithm;
 class vtkDataObject;
+class vtkOutputWindow;
 
 namespace tetralux::mesh {
 
@@ -19,9 +20,22 @@ namespace tetralux::mesh {
 CellSoup soupFromVtk(vtkDataObject* data);
 
 /// Updates `reader`, at the time step nearest to `time` if it has several, and converts its first output. VTK's
-/// messages are collected, not printed, from the first call on, so call it within `readIsolated` only. \throws
+/// messages are collected, not printed, from the first call on, so call it within `readThirdParty` only. \throws
 /// std::runtime_error with the reader's first error message and a remedy, without the name of the file.
 CellSoup soupFromReader(vtkAlgorithm& reader, std::optional<double> time);
+
+/// While one lives, VTK prints nothing; then its messages go where they went before.
+class SilentVtk {
+public:
+    SilentVtk();
+    SilentVtk(const SilentVtk&) = delete;
+    SilentVtk& operator=(const SilentVtk&) = delete;
+    ~SilentVtk();
+
+private:
+    vtkOutputWindow* before_;
+    int logged_;  ///< verbosity of the log
+};
 
 /// From now on VTK prints nothing and `throwOnVtkError` knows its messages.
 void captureVtkMessages();

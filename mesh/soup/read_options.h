@@ -18,8 +18,18 @@ struct ReadOptions {
     /// Points within this distance (mesh units) of another become one, whatever their values. Without it only points
     /// that agree exactly in place and values do.
     std::optional<double> mergeTolerance;
+    /// Third-party readers run in a forked child process, so that a damaged file can neither end this one nor take all
+    /// its memory. Not for a process whose other threads hold locks.
+    bool isolated = false;
     bool smoothCells = false;  ///< cell fields become point fields: the mean of the cells around each point
 };
+
+/// What a command line asks for, which has no threads yet when it reads.
+inline ReadOptions isolatedReading() {
+    ReadOptions options;
+    options.isolated = true;
+    return options;
+}
 
 struct ReadResult {
     TetMesh mesh;

@@ -19,7 +19,7 @@ public:
         if (isNew) {
             const std::array<double, 3> parameter = parameterOf(i, j, k);
             lattice_.points.push_back(parameter);
-            lattice_.cornerWeights.push_back(weightsAt(parameter));
+            lattice_.cornerWeights.push_back(cornerWeights(shape_, parameter));
         }
         return place->second;
     }
@@ -37,21 +37,6 @@ private:
     std::array<double, 3> parameterOf(int i, int j, int k) const {
         const double across = shape_ == Shape::Pyramid ? std::max(1, n_ - k) : n_;
         return {i / across, j / across, static_cast<double>(k) / n_};
-    }
-
-    std::vector<double> weightsAt(const std::array<double, 3>& p) const {
-        const auto [r, s, t] = p;
-        switch (shape_) {
-            case Shape::Tet:
-                return {1 - r - s - t, r, s, t};
-            case Shape::Wedge:
-                return {(1 - r - s) * (1 - t), r * (1 - t), s * (1 - t), (1 - r - s) * t, r * t, s * t};
-            case Shape::Pyramid:
-                return {(1 - r) * (1 - s) * (1 - t), r * (1 - s) * (1 - t), r * s * (1 - t), (1 - r) * s * (1 - t), t};
-            default:
-                return {(1 - r) * (1 - s) * (1 - t), r * (1 - s) * (1 - t), r * s * (1 - t), (1 - r) * s * (1 - t),
-                        (1 - r) * (1 - s) * t,       r * (1 - s) * t,       r * s * t,       (1 - r) * s * t};
-        }
     }
 
     Shape shape_;
@@ -153,6 +138,21 @@ void cutPyramid(Builder& build, int n) {
 }
 
 }  // namespace
+
+std::vector<double> cornerWeights(Shape shape, const std::array<double, 3>& place) {
+    const auto [r, s, t] = place;
+    switch (shape) {
+        case Shape::Tet:
+            return {1 - r - s - t, r, s, t};
+        case Shape::Wedge:
+            return {(1 - r - s) * (1 - t), r * (1 - t), s * (1 - t), (1 - r - s) * t, r * t, s * t};
+        case Shape::Pyramid:
+            return {(1 - r) * (1 - s) * (1 - t), r * (1 - s) * (1 - t), r * s * (1 - t), (1 - r) * s * (1 - t), t};
+        default:
+            return {(1 - r) * (1 - s) * (1 - t), r * (1 - s) * (1 - t), r * s * (1 - t), (1 - r) * s * (1 - t),
+                    (1 - r) * (1 - s) * t,       r * (1 - s) * t,       r * s * t,       (1 - r) * s * t};
+    }
+}
 
 ReferenceLattice referenceLattice(Shape shape, int segments) {
     Builder build(shape, segments);

@@ -11,11 +11,13 @@
 
 namespace tetralux::mesh {
 
+/// Weights of the corners (4 to 8, VTK's order) of a linear cell at a parametric place.
+std::vector<double> cornerWeights(Shape shape, const std::array<double, 3>& place);
+
 struct ReferenceLattice {
     /// VTK's parametric coordinates of every lattice point, each in [0, 1].
     std::vector<std::array<double, 3>> points;
-    /// Weights of the cell's corners (4 to 8, VTK's order) at that point under linear interpolation. They tell on which
-    /// corner, edge or face it lies, and where on it, whatever cell looks at it.
+    /// Of each such point: on which corner, edge or face it lies, and where on it, whatever cell looks at it.
     std::vector<std::vector<double>> cornerWeights;
     struct SubCell {
         std::uint8_t type;  ///< tetrahedron, hexahedron, wedge or pyramid

@@ -8,6 +8,7 @@
 #include <map>
 #include <vector>
 
+#include <mesh/soup/reference_lattice.h>
 #include <mesh/soup/shape_functions.h>
 
 #include "mesh_checks.h"
@@ -104,26 +105,10 @@ struct CurvedNodes {
     std::vector<std::vector<double>> cornerWeights;
 };
 
-/// Weights of the corners of a linear cell at a parametric place.
-inline std::vector<double> cornerWeightsAt(Shape shape, const std::array<double, 3>& place) {
-    const auto [r, s, t] = place;
-    switch (shape) {
-        case Shape::Tet:
-            return {1 - r - s - t, r, s, t};
-        case Shape::Wedge:
-            return {(1 - r - s) * (1 - t), r * (1 - t), s * (1 - t), (1 - r - s) * t, r * t, s * t};
-        case Shape::Pyramid:
-            return {(1 - r) * (1 - s) * (1 - t), r * (1 - s) * (1 - t), r * s * (1 - t), (1 - r) * s * (1 - t), t};
-        default:
-            return {(1 - r) * (1 - s) * (1 - t), r * (1 - s) * (1 - t), r * s * (1 - t), (1 - r) * s * (1 - t),
-                    (1 - r) * (1 - s) * t,       r * (1 - s) * t,       r * s * t,       (1 - r) * s * t};
-    }
-}
-
 inline CurvedNodes curvedNodes(std::uint8_t type, std::size_t points) {
     CurvedNodes nodes{curvedCellPoints(type, points), {}};
     for (const std::array<double, 3>& place : nodes.places) {
-        nodes.cornerWeights.push_back(cornerWeightsAt(cellTypeInfo(type).shape, place));
+        nodes.cornerWeights.push_back(cornerWeights(cellTypeInfo(type).shape, place));
     }
     return nodes;
 }

@@ -61,7 +61,7 @@ enum class ReadingEnd { Mesh, Refusal, Crash, Hang };
 /// Takes `source` through reading, statistics and the choice of a scalar.
 inline ReadingEnd readAll(const std::string& source) {
     try {
-        ReadResult result = readMesh(source);
+        ReadResult result = readMesh(source, isolatedReading());
         meshStatistics(result.mesh);
         selectScalar(std::move(result.mesh), "", result.report);
         return ReadingEnd::Mesh;

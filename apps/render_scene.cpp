@@ -19,6 +19,7 @@
 #include <preint/equidistant_isosurfaces.h>
 #include <preint/transfer_function.h>
 #include <projection/frame/engine_registry.h>
+#include <projection/frame/sampled_engine.h>
 #include <projection/frame/suggested_extinction.h>
 #include <projection/light/light_frame.h>
 #include <projection/opaque/opaque_layer.h>
@@ -119,6 +120,7 @@ void SceneRenderer::readScene(const RenderOptions& options) {
                   scene_.transferFunction,
                   scene_.mesh->bounds,
                   glm::dvec3(background_.value_or(glm::vec3(0)))};
+    opaque.isolines.width *= projection::samplesPerAxis(options.settings.samples);  // samples are pixels there
     if (options.opaque.isolines)
         opaque.isolines.values = preint::equidistantValues(*options.opaque.isolines, range.x, range.y);
     // limits come first: they leave out parts of slices

@@ -2,7 +2,7 @@
 #
 # cmake -DROOT=… -P layering_test.cmake: the tree's rules that a compiler does not hold.
 #
-#     apps, library ──► projection ──► preint, shading, mesh          shading ──► mesh
+#     apps ──► projection ──► preint, shading, mesh          shading ──► mesh
 #
 # and within them, each room including those on its left only:
 #
@@ -17,9 +17,8 @@ set(may_include_mesh mesh)
 set(may_include_preint preint)
 set(may_include_shading shading mesh)
 set(may_include_projection projection preint shading mesh)
-set(may_include_library library projection mesh)
 set(may_include_apps apps projection preint shading mesh)
-set(folders mesh preint shading projection library apps)
+set(folders mesh preint shading projection apps)
 
 # The rooms of a folder, and what each may include besides itself.
 set(rooms_mesh tet soup io)
@@ -43,7 +42,7 @@ set(may_include_projection_renderer ${rooms_projection})
 # Fills `out` with "FILE: what is wrong", one entry a breach.
 function(find_breaches root out)
   set(breaches "")
-  file(GLOB_RECURSE sources RELATIVE ${root} ${root}/mesh/* ${root}/preint/* ${root}/shading/* ${root}/projection/* ${root}/library/* ${root}/apps/*
+  file(GLOB_RECURSE sources RELATIVE ${root} ${root}/mesh/* ${root}/preint/* ${root}/shading/* ${root}/projection/* ${root}/apps/*
        ${root}/tests/*)
   list(FILTER sources INCLUDE REGEX "\\.(h|inl|cpp|glsl|vert|frag|comp|geom|cmake|py)$|/CMakeLists\\.txt$")
   list(FILTER sources EXCLUDE REGEX "^tests/data/|/build/")

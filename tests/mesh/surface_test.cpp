@@ -38,7 +38,7 @@ protected:
     }
     static std::string errorOf(const std::string& path) {
         try {
-            readSurface(path);
+            readSurface(path, true);  // in a child process: the PLY reader of VTK does not survive its input
         } catch (const std::runtime_error& error) {
             return error.what();
         }

@@ -23,7 +23,7 @@ PIXELS = 24  # per case
 LIMITS = {"reference": 1e-7, "cpu": 1e-5, "gl": 1e-4}
 NOT_OF_LIGHT = ("silhouette", "clips", "clip_options", "cut_layer")
 # silhouettes multiply what tables are off by k; ways to lights begin at points of one's own choice beside vertices
-SMOOTH_LIMITS, SHADOW_LIMITS = {"reference": 3e-7, "cpu": 2e-5, "gl": 3e-4}, {"reference": 1e-4, "cpu": 1e-4, "gl": 2e-4}
+SMOOTH_LIMITS, SHADOW_LIMITS = {"reference": 1e-6, "cpu": 2e-5, "gl": 3e-4}, {"reference": 1e-4, "cpu": 1e-4, "gl": 2e-4}
 CONTEXTS = {"gl": ["egl", "osmesa"]}
 FIVE = (((0, 1, 2, 4), (1, 3, 2, 7), (1, 2, 4, 7), (1, 4, 5, 7), (2, 6, 4, 7)), ((1, 0, 3, 5), (0, 2, 3, 6), (0, 3, 5, 6), (0, 5, 4, 6), (3, 5, 6, 7)))
 

@@ -80,7 +80,7 @@ headers = sorted(os.listdir(os.path.join(PREFIX, "include", "tetralux")))
 expect("only public headers are installed: " + " ".join(headers),
        headers == ["appearance.h", "error.h", "io.h", "mesh.h", "tetralux.h"] and os.listdir(os.path.join(PREFIX, "include")) == ["tetralux"])
 
-outside = build("outside", "-DEXAMPLE=" + os.path.join(HERE, "..", "..", "apps", "example.cpp"), "-DCMAKE_DISABLE_FIND_PACKAGE_VTK=ON")
+outside = build("outside", "-DEXAMPLE=" + os.path.join(HERE, "..", "..", "..", "apps", "example.cpp"), "-DCMAKE_DISABLE_FIND_PACKAGE_VTK=ON")
 said = run(os.path.join(outside, "example"))
 expect("the example draws, verifies and stops:\n" + said, "error: " in said and "stopped: yes" in said)
 expect("it needs no VTK", "vtk" not in run("ldd", os.path.join(outside, "example")).lower())

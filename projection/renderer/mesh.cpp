@@ -28,12 +28,6 @@ using mesh::Tetrahedron;
     throw Error(Errc::BadInput, what);
 }
 
-std::vector<glm::dvec3> pointsOf(std::span<const float> xyz) {
-    std::vector<glm::dvec3> points(xyz.size() / 3);
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
-    return points;
-}
-
 /// The same memory, as points.
 std::span<const glm::dvec3> seenAsPoints(std::span<const double> xyz) {
     static_assert(sizeof(glm::dvec3) == 3 * sizeof(double) && alignof(glm::dvec3) <= alignof(double));
@@ -49,6 +43,19 @@ void checkTriples(std::size_t numbers) {
         refuse(fmt::format("points: {} numbers are no whole number of points; give x, y, z of each", numbers));
     if (numbers / 3 >= std::numeric_limits<std::uint32_t>::max())
         refuse(fmt::format("points: {} are more than 32-bit numbers tell apart; give the mesh in parts", numbers / 3));
+}
+
+/// A copy of its own, in double. \throws Error unless there are three numbers for each.
+std::vector<glm::dvec3> pointsOf(std::span<const double> xyz) {
+    checkTriples(xyz.size());
+    const auto points = seenAsPoints(xyz);
+    return {points.begin(), points.end()};
+}
+std::vector<glm::dvec3> pointsOf(std::span<const float> xyz) {
+    checkTriples(xyz.size());
+    std::vector<glm::dvec3> points(xyz.size() / 3);
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
+    return points;
 }
 
 std::shared_ptr<const Mesh> finished(Mesh::Data data) {
@@ -181,11 +188,6 @@ std::shared_ptr<const Mesh> meshOfCells(std::vector<glm::dvec3> points, std::spa
     return meshOfSoup(std::move(soup), report);
 }
 
-std::vector<glm::dvec3> copied(std::span<const double> xyz) {
-    const auto points = seenAsPoints(xyz);
-    return {points.begin(), points.end()};
-}
-
 /// The field's values for the points or tetrahedra that are drawn.
 SharedArray<double> valuesFor(const std::vector<std::uint32_t>& sourceOf, std::size_t count, const Field& field) {
     if (sourceOf.empty() && count == field.values().size())
@@ -235,15 +237,13 @@ BoundingBox Mesh::bounds() const {
 std::shared_ptr<const Mesh> Mesh::fromTetrahedra(std::span<const double> xyz, std::span<const std::uint32_t> cells,
                                                  MeshReport* report) {
     return renderer::translated([&] {
-        checkTriples(xyz.size());
-        return meshOfTetrahedra(copied(xyz), cells, nullptr, report);
+        return meshOfTetrahedra(pointsOf(xyz), cells, nullptr, report);
     });
 }
 
 std::shared_ptr<const Mesh> Mesh::fromTetrahedra(std::span<const float> xyz, std::span<const std::uint32_t> cells,
                                                  MeshReport* report) {
     return renderer::translated([&] {
-        checkTriples(xyz.size());
         return meshOfTetrahedra(pointsOf(xyz), cells, nullptr, report);
     });
 }
@@ -262,8 +262,7 @@ std::shared_ptr<const Mesh> Mesh::fromCells(std::span<const double> xyz, std::sp
                                             std::span<const std::int64_t> faceOffsets,
                                             std::span<const std::int64_t> faceStream) {
     return renderer::translated([&] {
-        checkTriples(xyz.size());
-        return meshOfCells(copied(xyz), types, offsets, connectivity, report, faceOffsets, faceStream);
+        return meshOfCells(pointsOf(xyz), types, offsets, connectivity, report, faceOffsets, faceStream);
     });
 }
 
@@ -273,7 +272,6 @@ std::shared_ptr<const Mesh> Mesh::fromCells(std::span<const float> xyz, std::spa
                                             std::span<const std::int64_t> faceOffsets,
                                             std::span<const std::int64_t> faceStream) {
     return renderer::translated([&] {
-        checkTriples(xyz.size());
         return meshOfCells(pointsOf(xyz), types, offsets, connectivity, report, faceOffsets, faceStream);
     });
 }
@@ -282,8 +280,7 @@ std::shared_ptr<const Mesh> Mesh::fromCells(std::span<const double> xyz, std::sp
                                             std::span<const std::int32_t> offsets,
                                             std::span<const std::int32_t> connectivity, MeshReport* report) {
     return renderer::translated([&] {
-        checkTriples(xyz.size());
-        return meshOfCells(copied(xyz), types, offsets, connectivity, report, {}, {});
+        return meshOfCells(pointsOf(xyz), types, offsets, connectivity, report, {}, {});
     });
 }
 

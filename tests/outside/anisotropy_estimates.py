@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """anisotropy_estimates.py PROGRAM FOLDER: the program's tensors against the estimate of Ament & Dachsbacher (2015),
 Equations 14 to 25, at points of a sphere, an ellipsoid and a cylinder whose directions are known, for three radii.
-Needs numpy; prints the table of projection/modes.md.
+Needs numpy. Points are drawn anew, so the numbers are near those of projection/modes.md, not the same.
 
 The paper's: random points of the ball whose scalar is within epsilon, projected onto the tangent plane, covariance
 about their centroid with the weight 1 - x^2 of the distance there. The program's: read from what `render

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """structure_scores.py PROGRAM FOLDER: the structure score MS-HWSD (tetralux compare --structure) of Ward's and
 Lafortune's highlights at gamma 0, 10 and 60, each lobe against itself at gamma 0, on the Marschner-Lobb signal, an
-ellipsoid and a cylinder. Prints the table of projection/modes.md.
+ellipsoid and a cylinder. Extinction is normalized here, so the ellipsoid's scores differ from those of
+projection/modes.md.
 """
 import json
 import math

@@ -236,16 +236,12 @@ BoundingBox Mesh::bounds() const {
 
 std::shared_ptr<const Mesh> Mesh::fromTetrahedra(std::span<const double> xyz, std::span<const std::uint32_t> cells,
                                                  MeshReport* report) {
-    return renderer::translated([&] {
-        return meshOfTetrahedra(pointsOf(xyz), cells, nullptr, report);
-    });
+    return renderer::translated([&] { return meshOfTetrahedra(pointsOf(xyz), cells, nullptr, report); });
 }
 
 std::shared_ptr<const Mesh> Mesh::fromTetrahedra(std::span<const float> xyz, std::span<const std::uint32_t> cells,
                                                  MeshReport* report) {
-    return renderer::translated([&] {
-        return meshOfTetrahedra(pointsOf(xyz), cells, nullptr, report);
-    });
+    return renderer::translated([&] { return meshOfTetrahedra(pointsOf(xyz), cells, nullptr, report); });
 }
 
 std::shared_ptr<const Mesh> Mesh::borrow(std::span<const double> xyz, std::span<const std::uint32_t> cells,
@@ -261,9 +257,8 @@ std::shared_ptr<const Mesh> Mesh::fromCells(std::span<const double> xyz, std::sp
                                             std::span<const std::int64_t> connectivity, MeshReport* report,
                                             std::span<const std::int64_t> faceOffsets,
                                             std::span<const std::int64_t> faceStream) {
-    return renderer::translated([&] {
-        return meshOfCells(pointsOf(xyz), types, offsets, connectivity, report, faceOffsets, faceStream);
-    });
+    return renderer::translated(
+        [&] { return meshOfCells(pointsOf(xyz), types, offsets, connectivity, report, faceOffsets, faceStream); });
 }
 
 std::shared_ptr<const Mesh> Mesh::fromCells(std::span<const float> xyz, std::span<const std::uint8_t> types,
@@ -271,17 +266,15 @@ std::shared_ptr<const Mesh> Mesh::fromCells(std::span<const float> xyz, std::spa
                                             std::span<const std::int64_t> connectivity, MeshReport* report,
                                             std::span<const std::int64_t> faceOffsets,
                                             std::span<const std::int64_t> faceStream) {
-    return renderer::translated([&] {
-        return meshOfCells(pointsOf(xyz), types, offsets, connectivity, report, faceOffsets, faceStream);
-    });
+    return renderer::translated(
+        [&] { return meshOfCells(pointsOf(xyz), types, offsets, connectivity, report, faceOffsets, faceStream); });
 }
 
 std::shared_ptr<const Mesh> Mesh::fromCells(std::span<const double> xyz, std::span<const std::uint8_t> types,
                                             std::span<const std::int32_t> offsets,
                                             std::span<const std::int32_t> connectivity, MeshReport* report) {
-    return renderer::translated([&] {
-        return meshOfCells(pointsOf(xyz), types, offsets, connectivity, report, {}, {});
-    });
+    return renderer::translated(
+        [&] { return meshOfCells(pointsOf(xyz), types, offsets, connectivity, report, {}, {}); });
 }
 
 Field::Field(bool onPoints, std::span<const double> values, std::shared_ptr<const void> owner)

@@ -147,6 +147,7 @@ struct Renderer::State {
     Tier made = Tier::Nothing;
     std::shared_ptr<const mesh::ScalarMesh> drawn;
     std::uint64_t withoutScalar = 0;
+    std::optional<mesh::VolumeSamples> samples;  ///< of `drawn`, once a function asked for them
     std::shared_ptr<projection::FrameMemory> memory = std::make_shared<projection::FrameMemory>();
     projection::Scene scene;
     std::unique_ptr<projection::Engine> engine;
@@ -180,6 +181,7 @@ void Renderer::State::make() {
 
 void Renderer::State::makeField() {
     engine.reset();  // what it leaves behind the next one takes
+    samples.reset();
     drawn = renderer::scalarMesh(mesh->data(), *field, withoutScalar);
     made = Tier::Field;
 }
@@ -196,9 +198,11 @@ void Renderer::State::makeAppearance() {
     next.settings.threads = projection::RenderSettings::threadsOfCaller;
     projection::FunctionUse use;
     use.mode = next.settings.mode;
-    use.suggested = !function;
-    next.transferFunction = projection::resolvedFor(
-        function ? function->data().function : projection::defaultTransferFunction(), *drawn, use);
+    const preint::TransferFunction chosen =
+        function ? function->data().function : projection::defaultTransferFunction();
+    if (chosen.extinctionSuggested && !samples) samples = mesh::sampleVolume(*drawn);
+    if (samples) use.samples = &*samples;
+    next.transferFunction = projection::resolvedFor(chosen, *drawn, use);
     const bool allCells = drawn->cells.size() == mesh->data().cells.size();
     next.meshMemo = allCells ? mesh->data().memo : nullptr;  // without some cells it is another mesh
     next.frameMemory = memory;

@@ -315,7 +315,10 @@ void bindRenderer(nb::module_& module) {
         .def_static(
             "load", [](const std::string& path) { return TransferFunction::load(path); }, "path"_a)
         .def_static(
-            "preset", [](const std::string& name) { return TransferFunction::preset(name); }, "name"_a);
+            "preset", [](const std::string& name) { return TransferFunction::preset(name); }, "name"_a)
+        .def("stretched", &TransferFunction::stretched, "low"_a, "high"_a, "Over these scalars.");
+    module.def("color_maps", [] { return TransferFunction::colorMaps(); });
+    module.def("opacities", [] { return TransferFunction::opacities(); });
     nb::class_<BoundCamera>(module, "Camera", "Where from and how.")
         .def(nb::new_(&cameraOf), "eye"_a, "target"_a, "up"_a, "fov"_a, "height"_a, "centre"_a);
     nb::class_<BoundRenderer> renderer(module, "Renderer", "Draws one mesh, frame by frame, in a thread of its own.");

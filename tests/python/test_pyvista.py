@@ -23,7 +23,7 @@ FUNCTION = {
     "color": [[0, 0.1, 0.3, 0.9], [0.5, 0.9, 0.9, 0.3], [1, 0.9, 0.1, 0.1]],
     "extinction": [[0, 0.5], [1, 4]],
 }
-SPHERE = pyvista.Sphere(0.35, (0.9, 0.55, 0.6), theta_resolution=24, phi_resolution=24)
+SPHERE = pyvista.Sphere(radius=0.35, center=(0.9, 0.55, 0.6), theta_resolution=24, phi_resolution=24)
 SPHERE_COLOR = (1.0, 0.5, 0.2)
 BACKGROUND = (0.2, 0.3, 0.4)
 
@@ -100,11 +100,14 @@ def test_renderer_may_be_changed_and_volume_removed(bucky):
     volume = plotter.tetralux.add_volume(bucky, show_scalar_bar=False)
     first = plotter.screenshot()
     volume.renderer.transfer_function = "turbo"
+    plotter.render()
     assert np.abs(plotter.screenshot().astype(int) - first).max() > 20
     volume.visible = False
+    plotter.render()
     assert plotter.screenshot().max() == 0
     volume.visible = True
     volume.remove()
+    plotter.render()
     assert plotter.screenshot().max() == 0
     plotter.close()
 

@@ -10,8 +10,8 @@ mesh = grid.cast_to_unstructured_grid()
 
 plotter = pv.Plotter(off_screen=True, window_size=(500, 400))
 plotter.tetralux.add_volume(mesh, "T", cmap="viridis", opacity="linear", opacity_unit_distance=0.2)
-plotter.add_mesh(pv.Sphere(0.3, (0.9, 0.6, 0.6)), color="orange")
-plotter.add_mesh(pv.Plane((0.5, 0.5, -0.1), i_size=2, j_size=2), color="lightgray")
+plotter.add_mesh(pv.Sphere(radius=0.3, center=(0.9, 0.6, 0.6)), color="orange")
+plotter.add_mesh(pv.Plane(center=(0.5, 0.5, -0.1), i_size=2, j_size=2), color="lightgray")
 plotter.camera_position = "iso"
 plotter.screenshot("pyvista_scene.png")
 plotter.close()

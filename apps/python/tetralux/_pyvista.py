@@ -85,8 +85,8 @@ class PlotterComponent:
         ``blending`` ("composite", "maximum", "minimum", "average", "additive"), ``show_scalar_bar``,
         ``scalar_bar_args``. ``transfer_function`` and other ``options`` are those of `tetralux.render`.
 
-        Translucent actors are drawn behind the volume wherever they are; of several volumes each lies over those that
-        were added before.
+        Opaque actors and the volume hide each other as depth says. Translucent actors and several volumes lie over each
+        other in the order in which they were added.
 
         Returns
         -------

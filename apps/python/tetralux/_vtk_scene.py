@@ -80,16 +80,15 @@ def _unit(vector: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     return vector / length if length > 0 else vector
 
 
-def _corners(points: Any, cells: bool) -> vtkPolyData:
+def _square_of(points: Any) -> vtkPolyData:
     data = vtkPolyData()
     at = vtkPoints()
     for point in points:
         at.InsertNextPoint(point)
     data.SetPoints(at)
-    if cells:
-        square = vtkCellArray()
-        square.InsertNextCell(4, (0, 1, 2, 3))
-        data.SetPolys(square)
+    square = vtkCellArray()
+    square.InsertNextCell(4, (0, 1, 2, 3))
+    data.SetPolys(square)
     return data
 
 
@@ -97,7 +96,7 @@ class _Square:
     """A picture over the whole viewport, drawn after what is opaque."""
 
     def __init__(self) -> None:
-        data = _corners([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], True)
+        data = _square_of([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)])
         places = numpy_to_vtk(np.array([[0, 0], [1, 0], [1, 1], [0, 1]], np.float32), deep=True)
         places.SetName("texture")
         data.GetPointData().SetTCoords(places)
@@ -141,8 +140,10 @@ class Volume:
         low, high = renderer.mesh.bounds
         self._box = vtkActor()  # shows nothing: its bounds are the volume's, for whoever resets the camera
         mapper = vtkPolyDataMapper()
-        mapper.SetInputData(_corners([low, high], False))
+        middle = (low[0], low[1], high[2]), (high[0], high[1], low[2])
+        mapper.SetInputData(_square_of([low, middle[0], high, middle[1]]))
         self._box.SetMapper(mapper)
+        self._box.GetProperty().SetOpacity(0)
         self._box.PickableOff()
         self._per_pixel = 0.0  # milliseconds of the last frame for each pixel
         for actor in self.actors:
@@ -204,6 +205,7 @@ class SceneVolumes:
                 scene._before_frame()
 
         self._observer = target.AddObserver("StartEvent", before)
+        target.SetUseOIT(False)  # it weighs colours by depth, which is no composition
 
     def add(self, renderer: Renderer) -> Volume:
         volume = Volume(self, renderer)
@@ -212,6 +214,7 @@ class SceneVolumes:
 
     def close(self) -> None:
         self.target.RemoveObserver(self._observer)
+        self.target.SetUseOIT(True)
         for volume in list(self.volumes):
             volume.remove()
 

@@ -89,6 +89,8 @@ def function_of_words(
         document["range"] = clim_of(clim)
     if not document:
         return None
+    if "color" in document and opacity is None:
+        document["opacity"] = "linear"
     if cmap is None:
         document["colorMap"] = DEFAULT_COLORS
     return document

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Meshes from files of any format that Tetralux reads (VTK, Exodus, CGNS, EnSight, OpenFOAM, Gmsh, MEDIT, TetGen, image
-/// volumes, …), or generated ("bucky:32"). Link tetralux::io, the only part that needs VTK.
+/// Meshes from files of any format that Tetralux reads (VTK, Exodus, CGNS, EnSight, OpenFOAM, Gmsh, MEDIT, TetGen,
+/// image volumes, …), or generated ("bucky:32"). Link tetralux::io, the only part that needs VTK.
 ///
 ///     tetralux::MeshFile file = tetralux::read("engine.vtu");
 ///     tetralux::Renderer renderer(file.mesh);
@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +36,11 @@ public:
     const std::string& name() const { return name_; }
     bool isOnPoints() const { return onPoints_; }
     int components() const { return components_; }
+    /// Names that the file gives its components ("xx", "xy", …), as many as there are, or none.
+    const std::vector<std::string>& componentNames() const;
+    bool isBookkeeping() const;  ///< numbers of points, cells or blocks: nobody wants to see them unasked
+    /// `components()` numbers for each point or tetrahedron, as long as this field or a copy of it lives.
+    std::span<const double> values() const;
     double minimum() const { return minimum_; }  ///< of the scalar, of a vector its magnitude, over finite values
     double maximum() const { return maximum_; }
 
@@ -68,5 +74,9 @@ struct MeshFile {
 /// Reads and checks a mesh. One call after another reads by VTK at a time, in whatever threads they are. \throws Error
 /// naming the source, what is wrong and what would mend it.
 MeshFile read(const std::string& source, const ReadOptions& options = {});
+
+/// The same without VTK: generated fields, the common kinds of .vtu, Gmsh, MEDIT, TetGen, raw voxels. \throws Error
+/// (Unsupported) for others.
+MeshFile readOwn(const std::string& source, const ReadOptions& options = {});
 
 }  // namespace tetralux

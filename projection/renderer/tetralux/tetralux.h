@@ -24,6 +24,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <tetralux/appearance.h>
@@ -43,8 +44,9 @@ struct Camera {
     std::array<double, 2> windowCentre{0, 0};
 };
 
-/// A three-quarter view that holds the whole box, for a picture of that shape.
-Camera cameraHolding(const BoundingBox& bounds, int width, int height);
+/// A three-quarter view that holds the whole box, for a picture of that shape; field of view, height and up are those
+/// of `like`.
+Camera cameraHolding(const BoundingBox& bounds, int width, int height, const Camera& like = {});
 
 /// The caller's memory: linear RGBA, premultiplied by alpha, over nothing; the top row first.
 struct ImageView {
@@ -125,16 +127,21 @@ public:
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
 
-    void setField(Field field);                           ///< needed before the first frame
-    void setTransferFunction(TransferFunction function);  ///< a default one that shows the mesh without
+    void setField(Field field);  ///< needed before the first frame
+    /// Nothing: one that shows the mesh, whatever it is.
+    void setTransferFunction(std::optional<TransferFunction> function);
     void setMode(Mode mode);
     void setLighting(Lighting lighting);
+    /// The same by a JSON document, which can say more: materials, reflectance, fibres, soft shadows (README, lights).
+    void setLighting(std::string_view document);
     void setSilhouettes(Silhouettes silhouettes);
     /// What lies within `layer` behind a cut (mesh units; 1/200 of the mesh's diagonal where nothing is said) is lit by
     /// the cut's normal.
     void setCuts(std::vector<Cut> cuts, std::optional<double> layer = {});
     void setSlices(std::vector<Slice> slices);
     void setSurfaces(std::vector<Surface> surfaces);
+    /// Anti-aliasing: the mean of at least so many rays a pixel, 1 to 64, on a regular grid.
+    void setSamples(int samples);
 
     FrameResult render(const Camera& camera, ImageView image, const Control& control = {});
 

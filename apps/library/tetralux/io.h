@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Meshes from files of any format that Tetralux reads (VTK, Exodus, CGNS, EnSight, OpenFOAM, Gmsh, MEDIT, TetGen, image
-/// volumes, …), or generated ("bucky:32"). Link tetralux::io, the only part that needs VTK.
+/// Meshes from files of any format that Tetralux reads (VTK, Exodus, CGNS, EnSight, OpenFOAM, Gmsh, MEDIT, TetGen,
+/// image volumes, …), or generated ("bucky:32"). Link tetralux::io, the only part that needs VTK.
 ///
 ///     tetralux::MeshFile file = tetralux::read("engine.vtu");
 ///     tetralux::Renderer renderer(file.mesh);
@@ -19,6 +19,7 @@
 
 namespace tetralux {
 
+/// How a file is read.
 struct ReadOptions {
     std::optional<double> time;            ///< of a series: the step nearest to it; the first step when not given
     int subdivision = 0;                   ///< pieces along each edge of a curved cell; 0: as many as its order
@@ -32,18 +33,18 @@ struct ReadOptions {
 /// A field of a file, with values for each point or tetrahedron of the file's mesh. Values are shared, not copied.
 class MeshField {
 public:
-    const std::string& name() const { return name_; }
-    bool isOnPoints() const { return onPoints_; }
-    int components() const { return components_; }
-    double minimum() const { return minimum_; }  ///< of the scalar, of a vector its magnitude, over finite values
-    double maximum() const { return maximum_; }
+    const std::string& name() const { return name_; }  ///< as the file has it
+    bool isOnPoints() const { return onPoints_; }      ///< else on cells
+    int components() const { return components_; }     ///< 1: a scalar
+    double minimum() const { return minimum_; }        ///< of the scalar, of a vector its magnitude, over finite values
+    double maximum() const { return maximum_; }        ///< likewise
 
     Field field() const;  ///< the scalar, or the vector's magnitude
     /// One component, from 0. \throws Error (BadInput) if there is none such.
     Field component(int index) const;
 
-    struct Data;  ///< the library's own
-    explicit MeshField(std::shared_ptr<const Data> data);
+    struct Data;                                           ///< the library's own
+    explicit MeshField(std::shared_ptr<const Data> data);  ///< the library's own
 
 private:
     Field made(std::vector<double> values) const;
@@ -55,11 +56,12 @@ private:
     double minimum_ = 0, maximum_ = 0;
 };
 
+/// What a file holds.
 struct MeshFile {
-    std::shared_ptr<const Mesh> mesh;
-    std::vector<MeshField> fields;
-    std::vector<double> times;  ///< of all steps, if the source is a series; the mesh is that of one
-    MeshReport report;          ///< what checking found
+    std::shared_ptr<const Mesh> mesh;  ///< checked
+    std::vector<MeshField> fields;     ///< all that the file has
+    std::vector<double> times;         ///< of all steps, if the source is a series; the mesh is that of one
+    MeshReport report;                 ///< what checking found
 
     /// \throws Error (BadInput) listing the names that there are.
     const MeshField& field(std::string_view name) const;

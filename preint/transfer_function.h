@@ -56,8 +56,8 @@ struct TransferFunction {
     /// In place of extinction: τ = −ln(1 − α)/unitDistance, and where α = 1 1e4 per diagonal of the mesh (or per range
     /// of the scalar). Linear in α between nodes, to within 1/1024.
     std::vector<OpacityNode> opacity{};
+    /// Mesh units (or of the scalar); nothing: 1/50 of the diagonal (or the range).
     std::optional<double> unitDistance{};
-             ///< mesh units (or of the scalar); nothing: 1/50 of the diagonal (or the range)
     double opacityScale = 1.0;  ///< extinction, and the opacity of isosurfaces up to 1, times this
     std::vector<glm::dvec3> categories{};  ///< in place of `color`: one for each value (categorical_colors.h)
 

@@ -41,6 +41,7 @@ void translate(const std::exception_ptr& thrown, void*) {
 
 NB_MODULE(_core, module) {
     module.doc() = "The compiled part of tetralux. Use the functions of the package instead: this may change.";
+    nb::set_leak_warnings(false);  // the library prints nothing, and what the interpreter leaves behind is its affair
     nb::register_exception_translator(translate);
     tetralux::python::bindMesh(module);
     tetralux::python::bindRenderer(module);

@@ -140,7 +140,7 @@ struct Renderer::State {
     std::optional<double> cutLayer;
     std::vector<Slice> slices;
     std::vector<Surface> surfaces;
-    int samples = 1;
+    int pixelSamples = 1;
 
     // what was made of it, tier by tier; `made` says down to which it is still true
     enum class Tier { Nothing, Field, Appearance };
@@ -191,7 +191,7 @@ void Renderer::State::makeAppearance() {
     projection::Scene next;
     next.mesh = drawn;
     next.settings.mode = renderer::sceneMode(mode);
-    next.settings.samples = samples;
+    next.settings.samples = pixelSamples;
     next.settings.shading = lighting;
     next.settings.shading.silhouette = silhouettes != Silhouettes::None;
     next.settings.shading.approximateSilhouette = silhouettes == Silhouettes::Approximate;
@@ -306,7 +306,7 @@ void Renderer::setLighting(std::string_view document) {
 void Renderer::setSamples(int samples) {
     if (samples < 1 || samples > 64)
         throw Error(Errc::BadInput, fmt::format("samples: {} rays a pixel; give 1 to 64", samples));
-    state_->samples = samples;
+    state_->pixelSamples = samples;
     state_->changed(State::Tier::Field);
 }
 void Renderer::setSilhouettes(Silhouettes silhouettes) {

@@ -11,7 +11,7 @@ import pytest
 from conftest import ROOT
 
 EXAMPLES = sorted((ROOT / "apps/python/examples").glob("*.py"))
-ARGUMENTS = {"million_cells.py": ["20"]}
+ARGUMENTS = {"million_cells.py": ["20"], "against_pyvista.py": ["8", "64"]}
 NEEDS = {"pyvista_scene.py": "pyvista", "against_pyvista.py": "pyvista"}
 
 
@@ -23,5 +23,5 @@ def test_example(example, tmp_path):
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=300, env=os.environ)
     assert done.returncode == 0, done.stderr
     pictures = list(tmp_path.glob("*.png"))
-    assert pictures or "rmse" in done.stdout or "error" in done.stdout
+    assert pictures or "rmse" in done.stdout
     assert all(picture.stat().st_size > 1000 for picture in pictures)

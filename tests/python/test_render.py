@@ -45,6 +45,18 @@ SCENES = {
     "samples": ({"samples": 4}, ["--samples", "4"]),
     "background": ({"background": (0.2, 0.4, 1)}, ["--background", "0.2,0.4,1"]),
     "clip": ({"clip": [((0.5, 0.5, 0.5), (1, 0.2, 0))]}, ["--clip-plane", "0.5,0.5,0.5,1,0.2,0"]),
+    "words": (
+        {"cmap": "viridis", "opacity": "sigmoid_5", "clim": (0.2, 0.8), "opacity_unit_distance": 0.05},
+        "--tf viridis --opacity sigmoid_5 --range 0.2,0.8 --opacity-distance 0.05".split(),
+    ),
+    "a list of opacities": (
+        {"cmap": "Turbo_r", "opacity": [0, 0.3, 0.1]},
+        "--tf turbo_r --opacity 0,0.3,0.1".split(),
+    ),
+    "logarithm": ({"cmap": "inferno", "log_scale": True, "clim": (0.01, 1)}, "--tf inferno --log --range 0.01,1".split()),
+    "range alone": ({"clim": (0.2, 0.6)}, ["--range", "0.2,0.6"]),
+    "function over a range": ({"transfer_function": FUNCTION, "clim": (0, 2)}, "--tf FUNCTION --range 0,2".split()),
+    "colours alone": ({"cmap": "coolwarm"}, ["--tf", "coolwarm"]),
     "reference": ({"engine": "reference", "transfer_function": "turbo"}, ["--engine", "reference", "--tf", "turbo"]),
     "one thread": ({"threads": 1}, ["--threads", "1"]),
 }
@@ -121,6 +133,17 @@ def test_a_field_of_ones_own(bucky):
     values = np.array(bucky.points[:, 0])
     renderer.scalars = values
     np.testing.assert_array_equal(renderer.render().rgba, tetralux.render(bucky, "x", size=SIZE).rgba)
+
+
+def test_colour_maps_of_matplotlib_and_lists(bucky):
+    matplotlib = pytest.importorskip("matplotlib")
+    by_name = tetralux.render(bucky, cmap="viridis", opacity="linear", size=SIZE)
+    by_map = tetralux.render(bucky, cmap=matplotlib.colormaps["viridis"], opacity=[0, 1], size=SIZE)
+    np.testing.assert_allclose(by_map.rgba, by_name.rgba, atol=0.01)
+    red = tetralux.render(bucky, cmap=[(1, 0, 0)], size=SIZE).rgba
+    assert red[..., 0].max() > 0.3 and red[..., 1:3].max() == 0
+    with pytest.raises(ValueError, match="leave it out"):
+        tetralux.render(bucky, transfer_function=FUNCTION, cmap="viridis", size=SIZE)
 
 
 def test_verify_and_probe(bucky):

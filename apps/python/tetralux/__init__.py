@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from . import _core
 from ._errors import CancelledError, Error, FieldError, InputError, UnsupportedError
+from ._explore import explore
 from ._image import Image
 from ._mesh import Mesh, read
 from ._renderer import Renderer, render
@@ -25,7 +26,9 @@ __all__ = [
     "Mesh",
     "Renderer",
     "UnsupportedError",
+    "color_maps",
     "engines",
+    "explore",
     "presets",
     "read",
     "render",
@@ -40,3 +43,8 @@ def engines() -> list[tuple[str, bool, str]]:
 def presets() -> list[str]:
     """Names of the transfer functions that come along, which are those of colour maps too."""
     return list(_core.presets())
+
+
+def color_maps() -> list[str]:
+    """Names that ``cmap`` takes; "_r" at the end of any reverses it."""
+    return list(_core.color_maps())

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <apps/axes_box.h>
@@ -50,21 +51,56 @@ void drawAxes(const AxesBox& box, const Sizes& sizes, Overlay& overlay) {
     }
 }
 
+/// Where scalars stand on a bar from 0 to 1: in proportion, by their logarithms, or step by step.
+class BarScale {
+public:
+    explicit BarScale(const AnnotatedScene& scene) : scene_(scene) {}
+
+    double fractionOf(double scalar) const {
+        if (steps() > 0) {
+            const auto at = std::lower_bound(scene_.values.begin(), scene_.values.end(), scalar);
+            return (static_cast<double>(at - scene_.values.begin()) + 0.5) / steps();
+        }
+        if (!(scene_.high > scene_.low)) return 0.5;
+        if (scene_.logarithmic) return std::log(scalar / scene_.low) / std::log(scene_.high / scene_.low);
+        return (scalar - scene_.low) / (scene_.high - scene_.low);
+    }
+    double scalarAt(double fraction) const {
+        if (steps() > 0)
+            return scene_.values[static_cast<std::size_t>(std::clamp(fraction * steps(), 0.0, steps() - 1.0))];
+        if (scene_.logarithmic) return scene_.low * std::pow(scene_.high / scene_.low, fraction);
+        return std::lerp(scene_.low, scene_.high, fraction);
+    }
+    std::vector<Tick> ticks(int most) const {
+        if (steps() == 0)
+            return scene_.logarithmic ? decadeTicks(scene_.low, scene_.high, most)
+                                      : niceTicks(scene_.low, scene_.high, most);
+        std::vector<Tick> all;
+        const std::size_t stride =
+            (scene_.values.size() + static_cast<std::size_t>(most) - 1) / static_cast<std::size_t>(most);
+        for (std::size_t i = 0; i < scene_.values.size(); i += stride)
+            all.push_back({scene_.values[i], fmt::format("{:.6g}", scene_.values[i])});
+        return all;
+    }
+
+private:
+    double steps() const { return static_cast<double>(scene_.values.size()); }
+
+    const AnnotatedScene& scene_;
+};
+
 /// A bar along the right side: the colour of each scalar, marks at isosurfaces, numbers, the field's name above.
 void drawColorBar(const AnnotatedScene& scene, const projection::Camera& camera, const Sizes& sizes, Overlay& overlay) {
     const double barWidth = 1.2 * sizes.text, top = 0.2 * camera.height;
     const int height = std::max(2, static_cast<int>(0.6 * camera.height));
-    const std::vector<Tick> ticks =
-        niceTicks(scene.low, scene.high, std::max(2, height / static_cast<int>(3 * sizes.text)));
+    const BarScale scale(scene);
+    const std::vector<Tick> ticks = scale.ticks(std::max(2, height / static_cast<int>(3 * sizes.text)));
     double numbers = 0.0;
     for (const Tick& tick : ticks) numbers = std::max(numbers, overlay.textWidth(tick.label, sizes.text));
     const double left = camera.width - sizes.gap - numbers - 1.2 * sizes.text - barWidth;
-    const auto heightOf = [&](double scalar) {
-        const double fraction = scene.high > scene.low ? (scalar - scene.low) / (scene.high - scene.low) : 0.5;
-        return top + height * (1.0 - fraction);
-    };
+    const auto heightOf = [&](double scalar) { return top + height * (1.0 - scale.fractionOf(scalar)); };
     for (int row = 0; row < height; ++row) {
-        const double scalar = std::lerp(scene.high, scene.low, (row + 0.5) / height);
+        const double scalar = scale.scalarAt(1.0 - (row + 0.5) / height);
         overlay.fill({left, std::floor(top) + row}, {barWidth, 1.0}, scene.transferFunction.colorAt(scalar));
     }
     for (const preint::Isosurface& surface : scene.transferFunction.isosurfaces) {

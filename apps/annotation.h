@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -33,7 +34,9 @@ struct AnnotatedScene {
     double low = 0.0, high = 1.0;               ///< scalars at the ends of the colour bar
     preint::TransferFunction transferFunction;  ///< absolute
     mesh::BoundingBox bounds;
-    glm::dvec3 background{0};  ///< ink is white before a dark one, black before a bright one
+    bool logarithmic = false;      ///< the bar goes over the logarithm of the scalar
+    std::vector<double> values{};  ///< of a categorical map: the bar has a step for each
+    glm::dvec3 background{0};      ///< ink is white before a dark one, black before a bright one
 };
 
 /// The edges of the axes box that the volume hides: before a background is put under the picture.

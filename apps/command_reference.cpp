@@ -118,8 +118,14 @@ void describeFiles(PageWriter& page) {
     page.paragraph(
         "Colour `[s, r, g, b]` and extinction `[s, τ]` are linear between nodes and constant beyond them; a node given "
         "twice is a jump. τ counts per unit of length (mode `scale-invariant`: per unit of the scalar). `normalized` "
-        "makes every s a fraction of the field's range. Colour maps that ParaView exports load as they are, log scale "
+        "makes every s a fraction of the field's range, `extinctionPerExtent` divides τ by the mesh's extent, so that "
+        "a "
+        "function suits meshes of any size. Colour maps that ParaView exports load as they are, log scale, categories "
         "and XML too, and VisIt's `.ct`.");
+    page.paragraph(
+        "In words: `{\"colorMap\": \"viridis\", \"opacity\": \"sigmoid_5\", \"range\": [300, 900], \"logScale\": "
+        "true}`; "
+        "`opacity` may be nodes `[s, α]` too, over `unitDistance` d: τ = −ln(1 − α)/d.");
     page.heading("Lighting files");
     page.code(withoutFirstLine(lighting));
     page.paragraph(

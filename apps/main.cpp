@@ -22,6 +22,7 @@ constexpr int badInput = 2;
 constexpr void (*commands[])(CLI::App&, Command&) = {
     tetralux::apps::addRenderCommand,  tetralux::apps::addMeshCommand,  tetralux::apps::addInfoCommand,
     tetralux::apps::addExtractCommand, tetralux::apps::addBenchCommand, tetralux::apps::addCompareCommand,
+    tetralux::apps::addColorsCommand,
 };
 
 /// Errors are one line each, whatever a library wrote.

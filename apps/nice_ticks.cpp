@@ -47,4 +47,32 @@ std::vector<Tick> niceTicks(double low, double high, int most) {
     return ticks;
 }
 
+std::vector<Tick> decadeTicks(double low, double high, int most) {
+    if (!(low > 0.0) || !std::isfinite(high) || high < low) return {};
+    constexpr double hair = 1e-9;  // of a value
+    const int first = static_cast<int>(std::floor(std::log10(low))),
+              last = static_cast<int>(std::ceil(std::log10(high)));
+    const auto ticksOf = [&](int stride, const std::vector<double>& factors) {
+        std::vector<Tick> ticks;
+        for (int decade = first; decade <= last; ++decade) {
+            if (decade % stride != 0) continue;
+            for (const double factor : factors) {
+                const double value = factor * std::pow(10.0, decade);
+                if (value >= low * (1.0 - hair) && value <= high * (1.0 + hair))
+                    ticks.push_back({value, fmt::format("{:.6g}", value)});
+            }
+        }
+        return ticks;
+    };
+    for (const std::vector<double>& factors : {std::vector<double>{1.0, 2.0, 5.0}, {1.0, 3.0}}) {
+        std::vector<Tick> ticks = ticksOf(1, factors);
+        if (ticks.size() >= 2 && static_cast<int>(ticks.size()) <= most) return ticks;
+    }
+    for (int stride = 1; stride <= std::max(1, last - first); ++stride) {
+        std::vector<Tick> ticks = ticksOf(stride, {1.0});
+        if (static_cast<int>(ticks.size()) <= most && ticks.size() >= 2) return ticks;
+    }
+    return niceTicks(low, high, most);
+}
+
 }  // namespace tetralux::apps

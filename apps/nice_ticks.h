@@ -16,4 +16,8 @@ struct Tick {
 /// allows. One tick where low = high; none when a limit is not finite.
 std::vector<Tick> niceTicks(double low, double high, int most);
 
+/// The same for an axis of the logarithm, 0 < low: powers of ten, every second, third … where there are many; 2 and 5
+/// times them too where there are few. niceTicks where that leaves fewer than two.
+std::vector<Tick> decadeTicks(double low, double high, int most);
+
 }  // namespace tetralux::apps

@@ -15,7 +15,6 @@
 #include <apps/light_options.h>
 #include <apps/option_values.h>
 #include <apps/read_options.h>
-#include <preint/transfer_function.h>
 #include <projection/frame/engine_registry.h>
 #include <projection/frame/verification.h>
 #include <projection/gl/gl_path.h>
@@ -38,34 +37,8 @@ void addMeshOptions(CLI::App& command, RenderOptions& options) {
                      "also of meshes of millions of cells: tell whether cells overlap or do not fit together");
 }
 
-/// "C,W": from C − W/2 to C + W/2. "dicom:C,W" counts in whole numbers, of which a window of width W holds W (DICOM
-/// PS3.3, C.11.2.1.2.1): from C − 1/2 − (W − 1)/2 to C − 1/2 + (W − 1)/2.
-glm::dvec2 parseWindow(const std::string& option, const std::string& text) {
-    constexpr std::string_view dicom = "dicom:";
-    const bool whole = text.starts_with(dicom);
-    const std::vector<double> values =
-        parseNumbers(option, whole ? text.substr(dicom.size()) : text, 2, "centre,width or dicom:centre,width");
-    if (whole && !(values[1] >= 1.0))
-        throw std::runtime_error(fmt::format(
-            "{}: '{}' is narrower than one whole number; give dicom:centre,width with a width from 1", option, text));
-    if (whole) return {values[0] - 0.5 - 0.5 * (values[1] - 1.0), values[0] - 0.5 + 0.5 * (values[1] - 1.0)};
-    if (!(values[1] > 0.0))
-        throw std::runtime_error(
-            fmt::format("{}: '{}' has no width; give centre,width with a width above 0", option, text));
-    return {values[0] - 0.5 * values[1], values[0] + 0.5 * values[1]};
-}
-
 void addPictureOptions(CLI::App& command, RenderOptions& options) {
-    command
-        .add_option("--tf", options.transferFunction,
-                    fmt::format("transfer function: JSON file or one of {}; default: cool-to-warm, nothing quite clear",
-                                fmt::join(preint::presetNames(), ", ")))
-        ->type_name("FILE|PRESET");
-    addParsed(
-        command, "--window", options.window, parseWindow,
-        "the transfer function is stretched over the scalars from centre − width/2 to centre + width/2; default: the "
-        "field's range. dicom: as DICOM defines it for whole numbers",
-        "[dicom:]centre,width");
+    addColorOptions(command, options.colors);
     addParsed(command, "--mode", options.settings.mode, parseMode, modeNames(), "MODE");
     addParsed(command, "--background", options.background, parseBackground,
               "colour put under the picture last, or none", "r,g,b");

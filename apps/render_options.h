@@ -11,6 +11,7 @@
 
 #include <apps/annotation.h>
 #include <apps/opaque_options.h>
+#include <apps/options/color_options.h>
 #include <apps/shape_options.h>
 #include <mesh/io/read_mesh.h>
 #include <projection/core/engine.h>
@@ -26,9 +27,8 @@ struct RenderOptions {
     std::string source;  ///< mesh file or generated field
     std::string scalar;  ///< empty: the first field
     mesh::ReadOptions read;
-    bool checkInterfaces = false;      ///< also where it takes long: whether cells overlap or do not fit together
-    std::string transferFunction;      ///< file or preset; empty: the default
-    std::optional<glm::dvec2> window;  ///< scalars over which the transfer function is stretched: from, to
+    bool checkInterfaces = false;  ///< also where it takes long: whether cells overlap or do not fit together
+    ColorOptions colors;
     projection::RenderSettings settings;
     OpaqueOptions opaque;
     AnnotationOptions annotation;

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <apps/kept_anisotropy.h>
 #include <apps/stopwatch.h>
@@ -30,24 +28,10 @@ namespace {
 
 constexpr std::uint32_t verificationSeed = 1;  // the same pixels in every run
 
-/// Nothing, a preset or a file; a preset's name wins over a file of that name.
-preint::TransferFunction loadTransferFunction(const std::string& name) {
-    if (name.empty()) return projection::defaultTransferFunction();
-    const std::vector<std::string> presets = preint::presetNames();
-    if (std::find(presets.begin(), presets.end(), name) != presets.end()) return preint::preset(name);
-    std::error_code ignored;
-    if (!std::filesystem::exists(name, ignored) || std::filesystem::is_directory(name, ignored))
-        throw std::runtime_error(fmt::format("--tf {}: no such file or preset; give a JSON file or one of {}", name,
-                                             fmt::join(presets, ", ")));
-    return preint::readTransferFunction(name);
-}
-
 projection::FunctionUse useOf(const RenderOptions& options) {
     projection::FunctionUse use;
     use.mode = options.settings.mode;
-    use.window = options.window;
     use.perScalar = options.shape.isosurfaces.has_value();  // they have no length, whatever the mode
-    use.suggested = options.transferFunction.empty();
     return use;
 }
 
@@ -88,7 +72,7 @@ SceneRenderer::SceneRenderer(const RenderOptions& options)
 }
 
 void SceneRenderer::readScene(const RenderOptions& options) {
-    const preint::TransferFunction transferFunction = loadTransferFunction(options.transferFunction);
+    const preint::TransferFunction transferFunction = transferFunctionFor(options.colors);
     projection::OpaqueObjects opaque = readOpaqueObjects(options.opaque);
     const Stopwatch watch;
     mesh::ReadResult source = mesh::readMesh(options.source, options.read);
@@ -109,16 +93,22 @@ void SceneRenderer::readScene(const RenderOptions& options) {
     record_.scalarMax = scene_.mesh->scalarMax;
     record_.tetrahedra = scene_.mesh->cells.size();
     scene_.settings = options.settings;
-    scene_.transferFunction = projection::resolvedFor(transferFunction, *scene_.mesh, useOf(options));
+    try {
+        scene_.transferFunction = projection::resolvedFor(transferFunction, *scene_.mesh, useOf(options));
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(fmt::format("{}: {}: {}", options.source, record_.fieldName, error.what()));
+    }
     if (options.shape.isosurfaces)
         scene_.transferFunction = preint::equidistantIsosurfaces(scene_.transferFunction, *options.shape.isosurfaces,
                                                                  record_.scalarMin, record_.scalarMax);
-    const glm::dvec2 range = projection::shownRange(useOf(options), *scene_.mesh);
+    const glm::dvec2 range = projection::shownRange(transferFunction, *scene_.mesh);
     annotated_ = {record_.fieldName,
                   range.x,
                   range.y,
                   scene_.transferFunction,
                   scene_.mesh->bounds,
+                  transferFunction.logarithmic,
+                  transferFunction.categories.empty() ? std::vector<double>{} : projection::fewValues(*scene_.mesh),
                   glm::dvec3(background_.value_or(glm::vec3(0)))};
     opaque.isolines.width *= projection::samplesPerAxis(options.settings.samples);  // samples are pixels there
     if (options.opaque.isolines)

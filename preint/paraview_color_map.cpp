@@ -2,8 +2,8 @@
 /// \file
 /// Colour maps exported by ParaView: a list of one object with `RGBPoints` (s, r, g, b, …), `ColorSpace` and, when
 /// opacity was exported too, `Points` (s, opacity, midpoint, sharpness, …), interpolated as VTK's vtkPiecewiseFunction
-/// does. `UseLogScale` makes all of that linear in the logarithm of s; nodes close enough together follow it to within
-/// 1/1024 of a channel and of the largest opacity.
+/// does. `UseLogScale` makes all of that linear in the logarithm of s (log_scale.h). A categorical one has
+/// `IndexedColors`.
 ///
 /// Opacity becomes extinction as VTK's unstructured volume mappers take it: attenuation per unit distance. ParaView's
 /// unit distance is about one cell (diagonal / cells^⅓), which a colour map does not know, so it is 1/50 of the extent
@@ -17,6 +17,7 @@
 
 #include <preint/color_space.h>
 #include <preint/json_reading.h>
+#include <preint/log_scale.h>
 
 namespace tetralux::preint {
 namespace {
@@ -161,51 +162,19 @@ void takeLogarithms(const JsonPlace& map, std::vector<Node>& nodes, Given& given
     }
 }
 
-/// Takes nodes back from there, with further ones between: over a ratio q of scalars a chord of the logarithm is off by
-/// at most (ln q)² / 8, and `change(a, b)` is how much there is between two nodes, in units of the error allowed.
-template <class Node, class Change, class Between>
-std::vector<Node> fromLogarithms(const std::vector<Node>& nodes, const Given& given, const Change& change,
-                                 const Between& between) {
-    std::vector<Node> result;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        if (i > 0 && nodes[i].scalar > nodes[i - 1].scalar) {
-            const Node &low = nodes[i - 1], &high = nodes[i];
-            const double pieces = std::ceil(std::sqrt((high.scalar - low.scalar) * change(low, high) / 8.0));
-            constexpr double mostPieces = 1000;
-            const int count = static_cast<int>(std::min(pieces, mostPieces));
-            for (int k = 1; k < count; ++k) {
-                const double fraction = static_cast<double>(k) / count;
-                Node node = between(low, high, fraction);
-                node.scalar = std::exp(std::lerp(low.scalar, high.scalar, fraction));
-                result.push_back(node);
-            }
-        }
-        result.push_back(nodes[i]);
-        const auto original = given.find(nodes[i].scalar);  // not rounded twice
-        result.back().scalar = original != given.end() ? original->second : std::exp(nodes[i].scalar);
-    }
-    return result;
-}
-
-std::vector<ColorNode> colorsFromLogarithms(const std::vector<ColorNode>& nodes, const Given& given) {
-    const auto change = [](const ColorNode& a, const ColorNode& b) {
-        const glm::dvec3 difference = glm::abs(b.color - a.color);
-        return 1024.0 * std::max({difference.x, difference.y, difference.z});
-    };
-    return fromLogarithms(nodes, given, change, [](const ColorNode& a, const ColorNode& b, double fraction) {
-        return ColorNode{0.0, glm::mix(a.color, b.color, fraction)};
-    });
-}
-
-std::vector<ExtinctionNode> extinctionFromLogarithms(const std::vector<ExtinctionNode>& nodes, const Given& given) {
-    double largest = 0.0;
-    for (const ExtinctionNode& node : nodes) largest = std::max(largest, node.extinction);
-    const auto change = [&](const ExtinctionNode& a, const ExtinctionNode& b) {
-        return largest > 0.0 ? 1024.0 * std::abs(b.extinction - a.extinction) / largest : 0.0;
-    };
-    return fromLogarithms(nodes, given, change, [](const ExtinctionNode& a, const ExtinctionNode& b, double fraction) {
-        return ExtinctionNode{0.0, std::lerp(a.extinction, b.extinction, fraction)};
-    });
+/// A categorical map: the i-th colour is that of the i-th value that the field has.
+TransferFunction categoricalMap(const JsonPlace& map) {
+    const JsonPlace colors = map.member("IndexedColors").array("[r, g, b, …]");
+    if (colors.size() == 0 || colors.size() % 3 != 0)
+        colors.fail(fmt::format("has {} numbers, must have three for each color: r, g, b", colors.size()));
+    TransferFunction function;
+    for (std::size_t i = 0; i < colors.size(); i += 3)
+        function.categories.emplace_back(nearUnit(colors.element(i), "a color channel"),
+                                         nearUnit(colors.element(i + 1), "a color channel"),
+                                         nearUnit(colors.element(i + 2), "a color channel"));
+    function.extinction = suggestedExtinction();
+    function.normalized = function.extinctionPerExtent = function.extinctionSuggested = true;
+    return function;
 }
 
 }  // namespace
@@ -219,13 +188,15 @@ bool isParaViewColorMap(const nlohmann::json& document) {
 TransferFunction paraViewColorMap(const nlohmann::json& document, const std::string& origin) {
     const JsonPlace map(onlyMap(document, origin), origin);
     if (!map.value().contains("RGBPoints")) {
-        map.fail("is a ParaView color map without RGBPoints (a categorical one?); export one with RGBPoints");
+        if (map.value().contains("IndexedColors")) return categoricalMap(map);
+        map.fail("is a ParaView color map without RGBPoints or IndexedColors; export one with either");
     }
     TransferFunction function;
-    const bool logarithmic = usesLogScale(map);
     std::vector<ColorNode> nodes = colorPoints(map.member("RGBPoints"));
     // ParaView's own presets span [0, 1] and stand for the field's range.
     function.normalized = nodes.front().scalar == 0.0 && nodes.back().scalar == 1.0;
+    function.logarithmic = function.normalized && usesLogScale(map);
+    const bool logarithmic = !function.normalized && usesLogScale(map);
     function.extinctionPerExtent = true;
     // Colours alone: opacity as ParaView starts with, a ramp over the same range.
     std::vector<OpacityPoint> opacities{{nodes.front().scalar, 0.0, 0.5, 0.0}, {nodes.back().scalar, 1.0, 0.5, 0.0}};
@@ -238,8 +209,12 @@ TransferFunction paraViewColorMap(const nlohmann::json& document, const std::str
     function.color = sampledInRgb(colorSpaceOf(map), nodes);
     function.extinction = extinctionFrom(opacities);
     if (logarithmic) {
-        function.color = colorsFromLogarithms(function.color, given);
-        function.extinction = extinctionFromLogarithms(function.extinction, given);
+        const auto scalarOf = [&](double logarithm) {  // what was given is not rounded twice
+            const auto original = given.find(logarithm);
+            return original != given.end() ? original->second : std::exp(logarithm);
+        };
+        function.color = fromLogarithms(function.color, scalarOf);
+        function.extinction = fromLogarithms(function.extinction, scalarOf);
     }
     return function;
 }

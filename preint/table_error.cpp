@@ -81,8 +81,8 @@ struct Sampler {
         }
     }
 
-    /// Within and across neighbouring nodes so near to each other that chance hardly falls between them: nodes over many
-    /// decades are.
+    /// Within and across neighbouring nodes so near to each other that chance hardly falls between them: nodes over
+    /// many decades are.
     void addNarrowSegments() {
         constexpr double narrow = 1e-3;  // of the range
         constexpr int perPair = 40;

@@ -6,13 +6,15 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
+#include <preint/color_maps/color_maps.h>
 #include <preint/json_reading.h>
+#include <preint/opacity_words.h>
 
 namespace tetralux::preint {
 namespace {
@@ -101,29 +103,99 @@ std::vector<Isosurface> isosurfaces(const JsonPlace& list) {
     return surfaces;
 }
 
+std::vector<OpacityNode> opacityNodes(const JsonPlace& list) {
+    list.array("[[s, alpha], …], or a word such as \"linear\"");
+    if (list.size() == 0) list.fail("is empty, must have at least one node [s, alpha]");
+    std::vector<OpacityNode> nodes;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const JsonPlace node = list.element(i).array("[s, alpha]");
+        if (node.size() != 2)
+            node.fail(fmt::format("has {} numbers, an opacity node has two: [s, alpha]", node.size()));
+        nodes.push_back({node.element(0).number(), node.element(1).fraction("an opacity")});
+        if (i > 0) requireNodeOrder(list, i, nodes[i > 1 ? i - 2 : 0].scalar, nodes[i - 1].scalar, nodes[i].scalar);
+    }
+    return nodes;
+}
+
+/// What complains of a word, with the place where it stands.
+template <class Make>
+auto madeOf(const JsonPlace& place, const Make& make) {
+    try {
+        return make(place.text());
+    } catch (const std::runtime_error& error) {
+        place.fail(fmt::format("is unknown: {}", error.what()));
+    }
+}
+
+/// Colours and opacity by name, and how a function is fitted to a field. Words count in fractions of the field's range.
+void readWords(const JsonPlace& root, TransferFunction& function) {
+    auto has = [&](const char* key) { return root.value().contains(key); };
+    for (const auto& [word, nodes] : {std::pair{"colorMap", "color"}, std::pair{"opacity", "extinction"}})
+        if (has(word) && has(nodes))
+            root.fail(fmt::format("has both \"{}\" and \"{}\"; leave one of them out", word, nodes));
+    const bool wordOfOpacity = has("opacity") && root.member("opacity").value().is_string();
+    if ((has("colorMap") || wordOfOpacity) && has("normalized") && !function.normalized)
+        root.fail(
+            "has a name in the place of nodes, which counts in fractions of the range; set \"normalized\" to true, or "
+            "leave it out");
+    if (has("colorMap")) {
+        ColorMap map = madeOf(root.member("colorMap"), [](const std::string& name) { return colorMap(name); });
+        function.color = std::move(map.nodes);
+        function.categories = std::move(map.categories);
+        function.normalized = true;
+    }
+    if (wordOfOpacity) {
+        function.opacity = madeOf(root.member("opacity"), [](const std::string& word) { return opacityOfWord(word); });
+        function.normalized = true;
+    } else if (has("opacity")) {
+        function.opacity = opacityNodes(root.member("opacity"));
+    }
+    const auto positive = [&](const char* key) {
+        const double value = root.member(key).number();
+        if (!(value > 0.0)) root.member(key).fail(fmt::format("is {}, must be above 0", value));
+        return value;
+    };
+    if (has("unitDistance")) function.unitDistance = positive("unitDistance");
+    if (has("opacityScale")) function.opacityScale = positive("opacityScale");
+    if (has("logScale")) function.logarithmic = root.member("logScale").boolean();
+    if (has("range")) {
+        const JsonPlace range = root.member("range").array("[low, high]");
+        if (range.size() != 2) range.fail(fmt::format("has {} numbers, must have two: [low, high]", range.size()));
+        function.range = glm::dvec2(range.element(0).number(), range.element(1).number());
+        if (!(function.range->x <= function.range->y)) range.fail("has its higher end first; write [low, high]");
+    }
+}
+
 TransferFunction functionFrom(const JsonPlace& root) {
     if (!root.value().is_object()) {
         root.fail(
             "is not a transfer function; write an object {\"color\": …, \"extinction\": …} or export a color map from "
             "ParaView");
     }
-    requireKnownKeys(root, {"color", "extinction", "isosurfaces", "normalized", "extinctionPerExtent"});
+    requireKnownKeys(root, {"color", "colorMap", "extinction", "opacity", "unitDistance", "opacityScale", "isosurfaces",
+                            "normalized", "logScale", "range", "extinctionPerExtent"});
     auto has = [&](const char* key) { return root.value().contains(key); };
     TransferFunction function;
+    if (has("normalized")) function.normalized = root.member("normalized").boolean();
+    readWords(root, function);
     if (has("isosurfaces")) function.isosurfaces = isosurfaces(root.member("isosurfaces"));
     if (has("extinction")) function.extinction = extinctionNodes(root.member("extinction"));
     if (has("color")) function.color = colorNodes(root.member("color"));
-    if (has("normalized")) function.normalized = root.member("normalized").boolean();
     if (has("extinctionPerExtent")) function.extinctionPerExtent = root.member("extinctionPerExtent").boolean();
+    if (has("colorMap") && !has("extinction") && !has("opacity") && !has("isosurfaces")) {
+        function.extinction = suggestedExtinction();
+        function.extinctionPerExtent = function.extinctionSuggested = true;
+    }
 
-    if (function.extinction.empty() && function.isosurfaces.empty()) {
+    if (function.extinction.empty() && function.opacity.empty() && function.isosurfaces.empty()) {
         root.fail(
             "has neither \"extinction\" nor \"isosurfaces\", so nothing could be seen; add \"extinction\": [[s, tau], "
-            "…]");
+            "…] or \"opacity\": \"linear\"");
     }
-    if (function.color.empty() && !function.extinction.empty())
-        root.fail("has no \"color\"; add \"color\": [[s, r, g, b], …]");
-    if (function.color.empty()) {  // isosurfaces only: modes that colour by the scalar alone use their colours
+    const bool colored = !function.color.empty() || !function.categories.empty();
+    if (!colored && (!function.extinction.empty() || !function.opacity.empty()))
+        root.fail("has no \"color\"; add \"color\": [[s, r, g, b], …] or \"colorMap\": \"viridis\"");
+    if (!colored) {  // isosurfaces only: modes that colour by the scalar alone use their colours
         for (const Isosurface& surface : function.isosurfaces) {
             if (function.color.empty() || surface.value > function.color.back().scalar) {
                 function.color.push_back({surface.value, surface.color});
@@ -194,74 +266,6 @@ TransferFunction readTransferFunction(const std::string& path) {
     }
     refuseOtherKinds(path);
     return parseTransferFunction(text, path);
-}
-
-TransferFunction resolved(const TransferFunction& function, double scalarMin, double scalarMax, double extent) {
-    TransferFunction absolute = function;
-    absolute.normalized = false;
-    absolute.extinctionPerExtent = false;
-    constexpr double largest = 1e300;  // finite, however large the fractions and small the extent
-    if (function.normalized) {
-        // A constant field has no range: it shows as the middle of one.
-        const double half = scalarMax > scalarMin ? 0.0 : 0.5 * std::max(1.0, std::abs(scalarMin));
-        const double low = scalarMin - half, high = scalarMax + half;
-        const auto scalarOf = [&](double fraction) {
-            return std::clamp(std::lerp(low, high, fraction), -largest, largest);
-        };
-        for (ColorNode& node : absolute.color) node.scalar = scalarOf(node.scalar);
-        for (ExtinctionNode& node : absolute.extinction) node.scalar = scalarOf(node.scalar);
-        for (Isosurface& surface : absolute.isosurfaces) surface.value = scalarOf(surface.value);
-    }
-    if (function.extinctionPerExtent && extent > 0.0) {
-        for (ExtinctionNode& node : absolute.extinction) node.extinction = std::min(node.extinction / extent, largest);
-    }
-    return absolute;
-}
-
-namespace {
-
-/// The first node's value below `above`, the last one's from there on.
-template <class Node>
-void makeStep(std::vector<Node>& nodes, double above) {
-    if (nodes.empty()) return;
-    nodes = {nodes.front(), nodes.back()};
-    for (Node& node : nodes) node.scalar = above;
-}
-
-TransferFunction stepAt(double scalar, const TransferFunction& function, double extent) {
-    TransferFunction step = function;
-    const double above = std::nextafter(scalar, std::numeric_limits<double>::infinity());  // a jump holds from above
-    makeStep(step.color, above);
-    makeStep(step.extinction, above);
-    for (Isosurface& surface : step.isosurfaces) surface.value = above;
-    step.normalized = false;
-    return resolved(step, above, above, extent);
-}
-
-}  // namespace
-
-TransferFunction windowed(const TransferFunction& function, double low, double high, double extent) {
-    if (low == high) return stepAt(low, function, extent);
-    if (function.normalized) return resolved(function, low, high, extent);
-    double first = std::numeric_limits<double>::infinity(), last = -first;
-    const auto include = [&](double scalar) {
-        first = std::min(first, scalar);
-        last = std::max(last, scalar);
-    };
-    for (const ColorNode& node : function.color) include(node.scalar);
-    for (const ExtinctionNode& node : function.extinction) include(node.scalar);
-    for (const Isosurface& surface : function.isosurfaces) include(surface.value);
-    if (!(last > first))
-        throw std::runtime_error(
-            "transfer function: a window cannot stretch it, all its nodes are at one scalar; give it two or leave the "
-            "window out");
-    TransferFunction fractions = function;
-    fractions.normalized = true;
-    const auto fraction = [&](double scalar) { return (scalar - first) / (last - first); };
-    for (ColorNode& node : fractions.color) node.scalar = fraction(node.scalar);
-    for (ExtinctionNode& node : fractions.extinction) node.scalar = fraction(node.scalar);
-    for (Isosurface& surface : fractions.isosurfaces) surface.value = fraction(surface.value);
-    return resolved(fractions, low, high, extent);
 }
 
 }  // namespace tetralux::preint

@@ -62,6 +62,8 @@ double numberOf(const std::string& text, const std::string& origin) {
 
 nlohmann::json fromParaView(const std::vector<Element>& elements, const std::string& origin) {
     nlohmann::json colors = nlohmann::json::array(), opacities = nlohmann::json::array();
+    nlohmann::json categories = nlohmann::json::array();
+    bool categorical = false, logarithmic = false;
     std::string space = "RGB";
     int maps = 0;
     for (const Element& element : elements) {
@@ -73,17 +75,19 @@ nlohmann::json fromParaView(const std::vector<Element>& elements, const std::str
             if (++maps > 1) refuse(origin, "holds several color maps; keep one alone");
             const auto found = element.attributes.find("space");
             space = found == element.attributes.end() ? space : found->second;
+            logarithmic = number("useLogScale", 0.0) == 1.0;
             const auto indexed = element.attributes.find("indexedLookup");
-            if (indexed != element.attributes.end() && (indexed->second == "1" || indexed->second == "true"))
-                refuse(origin, "is a categorical color map; export one of a range");
+            categorical = indexed != element.attributes.end() && (indexed->second == "1" || indexed->second == "true");
         } else if (element.name == "Point") {
             const double x = number("x", 0.0);
+            for (const char* channel : {"r", "g", "b"}) categories.push_back(number(channel, 0.0));
             for (const double value : {x, number("r", 0.0), number("g", 0.0), number("b", 0.0)})
                 colors.push_back(value);
             for (const double value : {x, number("o", 1.0), 0.5, 0.0}) opacities.push_back(value);
         }
     }
-    nlohmann::json map{{"ColorSpace", space}, {"RGBPoints", colors}};
+    if (categorical) return {{"IndexedColors", categories}};
+    nlohmann::json map{{"ColorSpace", space}, {"RGBPoints", colors}, {"UseLogScale", logarithmic}};
     bool opaque = true;  // as maps of colours alone are
     for (std::size_t i = 1; i < opacities.size(); i += 4) opaque = opaque && opacities[i] == 1.0;
     if (!opaque) map["Points"] = opacities;

@@ -18,8 +18,11 @@ struct MeshFormat {
     CellSoup (*read)(const std::string& source, const ReadOptions& options);
 };
 
-/// The format that accepts `source`; nullptr if none does.
+/// The format that accepts `source`; nullptr if none does. (Of all readers.)
 const MeshFormat* formatOf(const std::string& source);
+
+/// A checked mesh by that format. \throws std::runtime_error naming the source
+ReadResult readAs(const MeshFormat& format, const std::string& source, const ReadOptions& options);
 
 extern const MeshFormat vtkXmlFormat;
 extern const MeshFormat legacyVtkFormat;

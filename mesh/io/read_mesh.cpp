@@ -10,7 +10,6 @@
 
 #include <mesh/io/file_checks.h>
 #include <mesh/io/mesh_format.h>
-#include <mesh/soup/validation.h>
 #include <mesh/tet/procedural_field.h>
 
 namespace tetralux::mesh {
@@ -57,23 +56,6 @@ std::string knownSources() {
     return list;
 }
 
-ReadResult generate(const ProceduralSource& source) {
-    ReadResult result;
-    result.mesh = sampleOnGrid(proceduralField(source.name, source.n), source.n);
-    result.report.cellsRead = result.mesh.cells.size();
-    result.report.cellTypes["tetrahedron"] = result.mesh.cells.size();
-    return result;
-}
-
-ReadResult readFile(const MeshFormat& format, const std::string& source, const ReadOptions& options) {
-    CellSoup soup = format.read(source, options);
-    try {
-        return tetMeshFromSoup(std::move(soup), options);
-    } catch (const std::runtime_error& error) {
-        throw std::runtime_error(fmt::format("{}: {}", source, error.what()));
-    }
-}
-
 }  // namespace
 
 const MeshFormat* formatOf(const std::string& source) {
@@ -83,11 +65,11 @@ const MeshFormat* formatOf(const std::string& source) {
 }
 
 ReadResult readMesh(const std::string& source, const ReadOptions& options) {
-    if (const auto generated = parseProceduralSource(source)) {
-        return generate(*generated);
+    if (parseProceduralSource(source)) {
+        return *readOwnMesh(source, options);
     }
     if (const MeshFormat* const format = formatOf(source)) {
-        return readFile(*format, source, options);
+        return readAs(*format, source, options);
     }
     checkReadable(source);
     for (const OtherKind& kind : otherKinds) {

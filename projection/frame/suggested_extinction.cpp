@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <vector>
-
-#include <mesh/tet/volume_samples.h>
 
 namespace tetralux::projection {
 
@@ -22,23 +21,26 @@ double thickness(const mesh::BoundingBox& box) {
     return surface > 0.0 ? 3.0 * std::numbers::sqrt3 * longest * part.x * part.y * part.z / surface : box.diagonal();
 }
 
-preint::TransferFunction resolvedWith(double extent, const preint::TransferFunction& function,
-                                      const mesh::ScalarMesh& mesh, const FunctionUse& use) {
-    return use.window ? preint::windowed(function, use.window->x, use.window->y, extent)
-                      : preint::resolved(function, mesh.scalarMin, mesh.scalarMax, extent);
+/// What `function` is fitted to where extinction per extent means `extent`.
+preint::FitTo fit(double extent, double diagonal, const preint::TransferFunction& function,
+                  const mesh::ScalarMesh& mesh) {
+    return {mesh.scalarMin, mesh.scalarMax, extent, diagonal,
+            function.categories.empty() ? std::vector<double>{} : fewValues(mesh)};
 }
 
 /// With the extinction that shows this very mesh: where it is thin, or where most of it has low values, more than its
 /// box tells. Never less than the function's own along the mean way through a cube.
 preint::TransferFunction suggestedFor(const preint::TransferFunction& function, const mesh::ScalarMesh& mesh,
-                                      const FunctionUse& use) {
+                                      const mesh::VolumeSamples& samples) {
     constexpr double wantedOpacity = 0.6;  // of the mean way, if it had one value, on average over the volume
     constexpr double mostAdded = 8.0;
-    const mesh::VolumeSamples samples = mesh::sampleVolume(mesh);
+    const double diagonal = mesh.bounds.diagonal();
     if (samples.scalars.empty() || !(samples.meanWay > 0.0))
-        return resolvedWith(thickness(mesh.bounds), function, mesh, use);
-    const double extent = std::numbers::sqrt3 * samples.meanWay;
-    const preint::TransferFunction plain = resolvedWith(extent, function, mesh, use);
+        return preint::resolved(function, fit(thickness(mesh.bounds), diagonal, function, mesh));
+    preint::FitTo to = fit(std::numbers::sqrt3 * samples.meanWay, diagonal, function, mesh);
+    preint::TransferFunction unscaled = function;
+    unscaled.opacityScale = 1.0;  // what is asked for on top of the suggestion is no part of it
+    const preint::TransferFunction plain = preint::resolved(unscaled, to);
     std::vector<double> depths;
     for (const double scalar : samples.scalars) depths.push_back(samples.meanWay * plain.extinctionAt(scalar));
     const auto opacity = [&](double factor) {
@@ -51,30 +53,40 @@ preint::TransferFunction suggestedFor(const preint::TransferFunction& function, 
         const double middle = std::sqrt(low * high);
         (opacity(middle) < wantedOpacity ? low : high) = middle;
     }
-    return resolvedWith(extent / low, function, mesh, use);
+    to.extent /= low;
+    return preint::resolved(function, to);
 }
 
 }  // namespace
 
 preint::TransferFunction defaultTransferFunction() {
-    preint::TransferFunction function = preint::preset("cool-to-warm");
-    function.extinction = {{0.0, 0.5}, {0.15, 0.8}, {0.5, 4.0}, {1.0, 25.0}};
-    return function;
+    return preint::preset("cool-to-warm");
 }
 
-glm::dvec2 shownRange(const FunctionUse& use, const mesh::ScalarMesh& mesh) {
-    if (use.window && use.window->x < use.window->y) return *use.window;
+glm::dvec2 shownRange(const preint::TransferFunction& function, const mesh::ScalarMesh& mesh) {
+    if (function.range && function.range->x < function.range->y) return *function.range;
     return {mesh.scalarMin, mesh.scalarMax};
+}
+
+std::vector<double> fewValues(const mesh::ScalarMesh& mesh) {
+    constexpr std::size_t most = 256;
+    std::set<double> values;
+    for (const double scalar : mesh.scalars) {
+        values.insert(scalar);
+        if (values.size() > most) return {};
+    }
+    return {values.begin(), values.end()};
 }
 
 preint::TransferFunction resolvedFor(const preint::TransferFunction& function, const mesh::ScalarMesh& mesh,
                                      const FunctionUse& use) {
     if (use.perScalar || integralOf(use.mode) == preint::Integral::ScaleInvariant) {
-        const glm::dvec2 range = shownRange(use, mesh);
-        return resolvedWith(range.y - range.x, function, mesh, use);
+        const glm::dvec2 range = shownRange(function, mesh);
+        return preint::resolved(function, fit(range.y - range.x, range.y - range.x, function, mesh));
     }
-    return use.suggested ? suggestedFor(function, mesh, use)
-                         : resolvedWith(thickness(mesh.bounds), function, mesh, use);
+    if (!function.extinctionSuggested)
+        return preint::resolved(function, fit(thickness(mesh.bounds), mesh.bounds.diagonal(), function, mesh));
+    return suggestedFor(function, mesh, use.samples != nullptr ? *use.samples : mesh::sampleVolume(mesh));
 }
 
 }  // namespace tetralux::projection

@@ -223,6 +223,12 @@ Mesh::~Mesh() = default;
 std::size_t Mesh::tetrahedra() const {
     return data_->cells.size();
 }
+std::span<const double> Mesh::positions() const {
+    return {&data_->positions.data()->x, 3 * data_->positions.size()};
+}
+std::span<const std::uint32_t> Mesh::corners() const {
+    return {data_->cells.data()->data(), 4 * data_->cells.size()};
+}
 std::size_t Mesh::points() const {
     return data_->sourcePoints;
 }

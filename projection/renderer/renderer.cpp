@@ -15,6 +15,7 @@
 #include <projection/frame/engine_registry.h>
 #include <projection/frame/suggested_extinction.h>
 #include <projection/frame/verification.h>
+#include <projection/light/lighting_file.h>
 #include <projection/opaque/opaque_layer.h>
 #include <projection/reference/reference_ray_caster.h>
 #include <projection/reference/reference_segment.h>
@@ -133,18 +134,20 @@ struct Renderer::State {
     std::optional<Field> field;
     std::optional<TransferFunction> function;
     Mode mode = Mode::Standard;
-    Lighting lighting;
+    shading::ShadingSettings lighting;
     Silhouettes silhouettes = Silhouettes::None;
     std::vector<Cut> cuts;
     std::optional<double> cutLayer;
     std::vector<Slice> slices;
     std::vector<Surface> surfaces;
+    int pixelSamples = 1;
 
     // what was made of it, tier by tier; `made` says down to which it is still true
     enum class Tier { Nothing, Field, Appearance };
     Tier made = Tier::Nothing;
     std::shared_ptr<const mesh::ScalarMesh> drawn;
     std::uint64_t withoutScalar = 0;
+    std::optional<mesh::VolumeSamples> volumeSamples;  ///< of `drawn`, once a function asked for them
     std::shared_ptr<projection::FrameMemory> memory = std::make_shared<projection::FrameMemory>();
     projection::Scene scene;
     std::unique_ptr<projection::Engine> engine;
@@ -178,6 +181,7 @@ void Renderer::State::make() {
 
 void Renderer::State::makeField() {
     engine.reset();  // what it leaves behind the next one takes
+    volumeSamples.reset();
     drawn = renderer::scalarMesh(mesh->data(), *field, withoutScalar);
     made = Tier::Field;
 }
@@ -187,13 +191,18 @@ void Renderer::State::makeAppearance() {
     projection::Scene next;
     next.mesh = drawn;
     next.settings.mode = renderer::sceneMode(mode);
-    next.settings.shading = renderer::sceneShading(lighting, silhouettes);
+    next.settings.samples = pixelSamples;
+    next.settings.shading = lighting;
+    next.settings.shading.silhouette = silhouettes != Silhouettes::None;
+    next.settings.shading.approximateSilhouette = silhouettes == Silhouettes::Approximate;
     next.settings.threads = projection::RenderSettings::threadsOfCaller;
     projection::FunctionUse use;
     use.mode = next.settings.mode;
-    use.suggested = !function;
-    next.transferFunction = projection::resolvedFor(
-        function ? function->data().function : projection::defaultTransferFunction(), *drawn, use);
+    const preint::TransferFunction chosen =
+        function ? function->data().function : projection::defaultTransferFunction();
+    if (chosen.extinctionSuggested && !volumeSamples) volumeSamples = mesh::sampleVolume(*drawn);
+    if (volumeSamples) use.samples = &*volumeSamples;
+    next.transferFunction = projection::resolvedFor(chosen, *drawn, use);
     const bool allCells = drawn->cells.size() == mesh->data().cells.size();
     next.meshMemo = allCells ? mesh->data().memo : nullptr;  // without some cells it is another mesh
     next.frameMemory = memory;
@@ -276,7 +285,7 @@ void Renderer::setField(Field field) {
     state_->field = std::move(field);
     state_->changed(State::Tier::Nothing);
 }
-void Renderer::setTransferFunction(TransferFunction function) {
+void Renderer::setTransferFunction(std::optional<TransferFunction> function) {
     state_->function = std::move(function);
     state_->changed(State::Tier::Field);
 }
@@ -285,7 +294,19 @@ void Renderer::setMode(Mode mode) {
     state_->changed(State::Tier::Field);
 }
 void Renderer::setLighting(Lighting lighting) {
+    state_->lighting = renderer::translated([&] { return renderer::sceneLighting(lighting); });
+    state_->changed(State::Tier::Field);
+}
+void Renderer::setLighting(std::string_view document) {
+    shading::ShadingSettings lighting;
+    renderer::translated([&] { projection::parseLighting(std::string(document), "lighting", lighting); });
     state_->lighting = std::move(lighting);
+    state_->changed(State::Tier::Field);
+}
+void Renderer::setSamples(int samples) {
+    if (samples < 1 || samples > 64)
+        throw Error(Errc::BadInput, fmt::format("samples: {} rays a pixel; give 1 to 64", samples));
+    state_->pixelSamples = samples;
     state_->changed(State::Tier::Field);
 }
 void Renderer::setSilhouettes(Silhouettes silhouettes) {
@@ -401,14 +422,15 @@ std::string Renderer::renderer() const {
     return name;
 }
 
-Camera cameraHolding(const BoundingBox& bounds, int width, int height) {
+Camera cameraHolding(const BoundingBox& bounds, int width, int height, const Camera& like) {
     const mesh::BoundingBox box{{bounds.low[0], bounds.low[1], bounds.low[2]},
                                 {bounds.high[0], bounds.high[1], bounds.high[2]}};
-    projection::Camera view;
-    view.width = std::max(1, width);
-    view.height = std::max(1, height);
+    ImageView size;
+    size.width = std::max(1, width);
+    size.height = std::max(1, height);
+    const projection::Camera view = renderer::sceneCamera(like, size, {});
     const glm::dvec3 target = box.centre(), eye = projection::threeQuarterEye(box, view);
-    Camera camera;
+    Camera camera = like;
     camera.target = {target.x, target.y, target.z};
     camera.eye = {eye.x, eye.y, eye.z};
     return camera;

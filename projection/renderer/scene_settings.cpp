@@ -86,10 +86,8 @@ projection::Mode sceneMode(Mode mode) {
     throw std::runtime_error("mode: there is no such mode");
 }
 
-shading::ShadingSettings sceneShading(const Lighting& lighting, Silhouettes silhouettes) {
+shading::ShadingSettings sceneLighting(const Lighting& lighting) {
     shading::ShadingSettings shading;
-    shading.silhouette = silhouettes != Silhouettes::None;
-    shading.approximateSilhouette = silhouettes == Silhouettes::Approximate;
     if (!(lighting.ambient >= 0) || !(lighting.exponent >= 0) || !std::isfinite(lighting.ambient + lighting.exponent))
         throw std::runtime_error(fmt::format("lighting: ambient {} and exponent {} must be finite and not below 0",
                                              lighting.ambient, lighting.exponent));

@@ -15,7 +15,7 @@
 namespace tetralux::renderer {
 
 projection::Mode sceneMode(Mode mode);
-shading::ShadingSettings sceneShading(const Lighting& lighting, Silhouettes silhouettes);
+shading::ShadingSettings sceneLighting(const Lighting& lighting);
 std::vector<projection::HalfSpace> sceneCuts(const std::vector<Cut>& cuts);
 projection::OpaqueObjects sceneObjects(const std::vector<Slice>& slices, const std::vector<Surface>& surfaces);
 projection::Camera sceneCamera(const Camera& camera, const ImageView& image, const ImageTile& tile);

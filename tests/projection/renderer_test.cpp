@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralux/tetralux.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -272,6 +273,53 @@ TEST(Renderer, ABudgetMakesCoarserPictures) {
     EXPECT_EQ(largestDifference(exact, picture), 0.0);
 }
 
+TEST(Renderer, SamplesAreTheMeanOfALargerPicture) {
+    Renderer renderer = rendererOf(bucky(12));
+    Picture larger(80, 60), averaged(40, 30);
+    renderer.render(corner, larger.view());
+    renderer.setSamples(3);  // the next square is 4
+    renderer.render(corner, averaged.view());
+    for (int y = 0; y < 30; ++y)
+        for (int x = 0; x < 40; ++x)
+            for (int c = 0; c < 4; ++c) {
+                const double mean = 0.25 * (double{larger.at(2 * x, 2 * y)[c]} + larger.at(2 * x + 1, 2 * y)[c] +
+                                            larger.at(2 * x, 2 * y + 1)[c] + larger.at(2 * x + 1, 2 * y + 1)[c]);
+                EXPECT_NEAR(averaged.at(x, y)[c], mean, 1e-6);
+            }
+    for (const int samples : {0, -1, 65}) expectBadInput([&] { renderer.setSamples(samples); }, "give 1 to 64");
+}
+
+TEST(Renderer, LightsByADocumentAreThoseOfTheStruct) {
+    Renderer renderer = rendererOf(bucky(12));
+    Lighting lighting;
+    lighting.lights.push_back({});
+    lighting.lights.back().direction = {1, 2, 2};
+    lighting.ambient = 0.3;
+    Picture a(48, 36), b(48, 36);
+    renderer.setLighting(lighting);
+    renderer.render(corner, a.view());
+    renderer.setLighting(R"({"ambient": 0.3, "lights": [{"type": "directional", "towards": [1, 2, 2]}]})");
+    renderer.render(corner, b.view());
+    EXPECT_EQ(largestDifference(a, b), 0.0);
+    renderer.setLighting(Lighting{});
+    renderer.render(corner, b.view());
+    EXPECT_GT(largestDifference(a, b), 0.01);
+    expectBadInput([&] { renderer.setLighting("{]"); }, "is not JSON");
+    expectBadInput([&] { renderer.setLighting(R"({"lights": [{"type": "laser"}]})"); }, "directional");
+}
+
+TEST(Renderer, AViewThatHoldsTheMeshIsLikeTheCameraGiven) {
+    const BoundingBox box{{0, 0, 0}, {1, 1, 1}};
+    Camera wide;
+    wide.fovDegrees = 60;
+    const auto distance = [](const Camera& camera) {
+        return std::hypot(camera.eye[0] - 0.5, camera.eye[1] - 0.5, camera.eye[2] - 0.5);
+    };
+    EXPECT_NEAR(distance(cameraHolding(box, 100, 80, wide)), 0.5 * std::sqrt(3.0) / 0.5, 1e-12);
+    EXPECT_GT(distance(cameraHolding(box, 100, 80)), 3.0);
+    EXPECT_EQ(cameraHolding(box, 100, 80, wide).fovDegrees, 60);
+}
+
 TEST(Renderer, VerifiesAndProbes) {
     const Arrays arrays = arraysOf(test::boxMesh(5, [](const glm::dvec3& p) { return 1 - p.z; }));
     Renderer renderer = rendererOf(arrays);
@@ -361,6 +409,13 @@ TEST(Mesh, BorrowsWhatFitsAndTakesFloats) {
     EXPECT_GT(uses, 1);
     mesh.reset();
     EXPECT_EQ(arrays.use_count(), 1);
+}
+
+TEST(Mesh, ShowsWhatIsDrawn) {
+    const Arrays arrays = bucky(4);
+    const auto mesh = Mesh::fromTetrahedra(arrays.xyz, arrays.cells);
+    EXPECT_TRUE(std::ranges::equal(mesh->positions(), arrays.xyz));
+    EXPECT_TRUE(std::ranges::equal(mesh->corners(), arrays.cells));
 }
 
 TEST(Mesh, TakesCellsOfAnyKind) {

@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,8 +37,13 @@ public:
     const std::string& name() const { return name_; }  ///< as the file has it
     bool isOnPoints() const { return onPoints_; }      ///< else on cells
     int components() const { return components_; }     ///< 1: a scalar
-    double minimum() const { return minimum_; }        ///< of the scalar, of a vector its magnitude, over finite values
-    double maximum() const { return maximum_; }        ///< likewise
+    /// Names that the file gives its components ("xx", "xy", …), as many as there are, or none.
+    const std::vector<std::string>& componentNames() const;
+    bool isBookkeeping() const;  ///< numbers of points, cells or blocks: nobody wants to see them unasked
+    /// `components()` numbers for each point or tetrahedron, as long as this field or a copy of it lives.
+    std::span<const double> values() const;
+    double minimum() const { return minimum_; }  ///< of the scalar, of a vector its magnitude, over finite values
+    double maximum() const { return maximum_; }  ///< likewise
 
     Field field() const;  ///< the scalar, or the vector's magnitude
     /// One component, from 0. \throws Error (BadInput) if there is none such.
@@ -70,5 +76,9 @@ struct MeshFile {
 /// Reads and checks a mesh. One call after another reads by VTK at a time, in whatever threads they are. \throws Error
 /// naming the source, what is wrong and what would mend it.
 MeshFile read(const std::string& source, const ReadOptions& options = {});
+
+/// The same without VTK: generated fields, the common kinds of .vtu, Gmsh, MEDIT, TetGen, raw voxels. \throws Error
+/// (Unsupported) for others.
+MeshFile readOwn(const std::string& source, const ReadOptions& options = {});
 
 }  // namespace tetralux

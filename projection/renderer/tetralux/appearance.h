@@ -17,18 +17,46 @@ namespace tetralux {
 
 using Vector = std::array<double, 3>;  ///< x, y, z in mesh units, or red, green, blue in [0, 1] as displays take them
 
+/// What a transfer function is put together of, in the words of ParaView, PyVista and matplotlib.
+struct TransferWords {
+    /// A name of TransferFunction::colorMaps() in any case, or an alias; "_r" at the end reverses it.
+    std::string colorMap = "cool-to-warm";
+    /// A name of TransferFunction::opacities(): "linear", "geom", "sigmoid_5", "foreground" …, "_r" at the end reverses
+    /// it. Empty, and no `opacities`: an extinction that shows the mesh.
+    std::string opacity;
+    std::vector<double> opacities;  ///< in its place: α, 0 to 1, at equal distances over the range
+    /// The length over which that α counts, mesh units (Mode::ScaleInvariant: units of the scalar): τ = −ln(1 − α)/d,
+    /// and α = 1 is τ = 1e4/diagonal. Nothing: 1/50 of the mesh's diagonal (of the scalar's range).
+    std::optional<double> unitDistance;
+    double opacityScale = 1;  ///< extinction times this
+    std::optional<std::array<double, 2>>
+        range;              ///< scalars of the first and the last colour; nothing: the field's range
+    bool logScale = false;  ///< over the logarithm of the scalar
+};
+
 /// Colour and extinction over the scalar, and isosurfaces. Extinction τ counts per unit of length of the mesh
 /// (Mode::ScaleInvariant: per unit of the scalar).
 class TransferFunction {
 public:
-    /// JSON: {"color": [[s, r, g, b], …], "extinction": [[s, tau], …], "isosurfaces": [{"value": v, "opacity": a,
-    /// "color": [r, g, b]}, …], "normalized": true|false}, or a colour map that ParaView exported. \throws Error
-    /// (BadInput) naming the place.
+    /// JSON: {"color": [[s, r, g, b], …] or "colorMap": name, "extinction": [[s, tau], …] or "opacity": [[s, alpha], …]
+    /// or a word, "isosurfaces": [{"value": v, "opacity": a, "color": [r, g, b]}, …], "normalized": true|false,
+    /// "range": [low, high], "logScale": true|false, "unitDistance": d, "opacityScale": f}, or a colour map that
+    /// ParaView or VisIt exported. \throws Error (BadInput) naming the place.
     static TransferFunction parse(std::string_view json);
     static TransferFunction load(const std::filesystem::path& file);  ///< \throws Error naming the file
-    /// viridis, cool-to-warm, … (presets() lists them). \throws Error listing the names that there are.
+    /// \throws Error (BadInput) for names that there are not, naming those nearest, and numbers that none can have.
+    static TransferFunction ofWords(const TransferWords& words);
+    /// The colours of that name, with an extinction that shows the mesh. \throws Error naming those nearest.
     static TransferFunction preset(std::string_view name);
-    static std::vector<std::string> presets();  ///< names of the presets
+
+    /// This function with extinction times `factor`, and isosurfaces' opacity, up to 1.
+    TransferFunction scaled(double factor) const;
+    /// This function stretched over these scalars, whatever the field's range.
+    TransferFunction stretched(double low, double high) const;
+
+    static std::vector<std::string> presets();    ///< the names that are asked for most
+    static std::vector<std::string> colorMaps();  ///< all of matplotlib's and ParaView's
+    static std::vector<std::string> opacities();  ///< words for opacity
 
     struct Data;  ///< the library's own
     /// The library's own.

@@ -24,6 +24,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <tetralux/appearance.h>
@@ -45,8 +46,9 @@ struct Camera {
     std::array<double, 2> windowCentre{0, 0};
 };
 
-/// A three-quarter view that holds the whole box, for a picture of that shape.
-Camera cameraHolding(const BoundingBox& bounds, int width, int height);
+/// A three-quarter view that holds the whole box, for a picture of that shape; field of view, height and up are those
+/// of `like`.
+Camera cameraHolding(const BoundingBox& bounds, int width, int height, const Camera& like = {});
 
 /// The caller's memory: linear RGBA, premultiplied by alpha, over nothing; the top row first.
 struct ImageView {
@@ -141,16 +143,21 @@ public:
     Renderer(Renderer&&) noexcept;             ///< what was moved from may only be assigned to or destroyed
     Renderer& operator=(Renderer&&) noexcept;  ///< likewise
 
-    void setField(Field field);                           ///< needed before the first frame
-    void setTransferFunction(TransferFunction function);  ///< a default one that shows the mesh without
-    void setMode(Mode mode);                              ///< Mode::Standard without
-    void setLighting(Lighting lighting);                  ///< none without
-    void setSilhouettes(Silhouettes silhouettes);         ///< Silhouettes::None without
+    void setField(Field field);  ///< needed before the first frame
+    /// Nothing: one that shows the mesh, whatever it is.
+    void setTransferFunction(std::optional<TransferFunction> function);
+    void setMode(Mode mode);          ///< Mode::Standard without
+    void setLighting(Lighting lighting);  ///< none without
+    /// The same by a JSON document, which can say more: materials, reflectance, fibres, soft shadows (README, lights).
+    void setLighting(std::string_view document);
+    void setSilhouettes(Silhouettes silhouettes);  ///< Silhouettes::None without
     /// What lies within `layer` behind a cut (mesh units; 1/200 of the mesh's diagonal where nothing is said) is lit by
     /// the cut's normal.
     void setCuts(std::vector<Cut> cuts, std::optional<double> layer = {});
     void setSlices(std::vector<Slice> slices);        ///< in the place of those there were
     void setSurfaces(std::vector<Surface> surfaces);  ///< in the place of those there were
+    /// Anti-aliasing: the mean of at least so many rays a pixel, 1 to 64, on a regular grid.
+    void setSamples(int samples);
 
     /// Draws into `image`, all of whose pixels are written. What was set since the last frame is made first. A frame
     /// that is stopped leaves the picture transparent, and the next one goes on as if it had not been.

@@ -25,6 +25,8 @@ target_link_libraries(tetralux_bench PUBLIC tetralux_plot tetralux_projection te
 target_sources(tetralux PRIVATE bench.cpp bench_options.cpp)
 target_link_libraries(tetralux PRIVATE tetralux_bench)
 
+tetralux_precompile(tetralux_plot tetralux_bench)
+
 if(TETRALUX_BENCH_VTK)
   add_subdirectory(bench_vtk)
 endif()

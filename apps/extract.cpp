@@ -127,13 +127,15 @@ void addExtractCommand(CLI::App& program, Command& chosen) {
     command
         ->add_option("-o,--output", options->output,
                      ".vtp or .ply, with the fields, or .stl (the shape alone, single precision)")
+        ->type_name("FILE")
         ->required();
     addParsed(*command, "--isosurface", options->isosurface, parseValue,
               "where the scalar has this value; what lies inside has at least this value", "V");
     addParsed(*command, "--slice", options->slice, parseSlice, "the mesh on a plane through a point with a normal",
               "px,py,pz,nx,ny,nz");
     command->add_flag("--boundary", options->boundary, "the faces that bound the mesh");
-    command->add_option("--scalar", options->scalar, "field of the isosurface: NAME (vectors by magnitude) or NAME:x");
+    command->add_option("--scalar", options->scalar, "field of the isosurface: NAME (vectors by magnitude) or NAME:x")
+        ->type_name("NAME");
     addReadOptions(*command, options->read);
     command->add_flag("--quiet", options->quiet, "nothing on standard output");
     command->callback([options, &chosen] { chosen = [options] { return extract(*options); }; });

@@ -185,9 +185,12 @@ void addInfoCommand(CLI::App& program, Command& chosen) {
     command->add_option("MESH", options->source, "mesh file or generated field")->required();
     addReadOptions(*command, options->read);
     command->add_flag("--json", options->json, "for machines");
-    command->add_option("--histogram", options->histogram, "draw how often which value occurs: FILE.png or FILE.svg");
-    command->add_option("--scalar", options->scalar,
-                        "field of the histogram: NAME (vectors by magnitude) or NAME:x; default: the first");
+    command->add_option("--histogram", options->histogram, "draw how often which value occurs: FILE.png or FILE.svg")
+        ->type_name("FILE");
+    command
+        ->add_option("--scalar", options->scalar,
+                     "field of the histogram: NAME (vectors by magnitude) or NAME:x; default: the first")
+        ->type_name("NAME");
     command->add_flag("--histogram-log", options->logarithmic, "counts on a logarithmic axis");
     command->callback([options, &chosen] { chosen = [options] { return info(*options); }; });
 }

@@ -85,6 +85,7 @@ void addSpecularByGradient(CLI::App& command, shading::Material& material) {
         .add_flag("--specular-by-gradient{relative}", *how,
                   "highlights as strong as the gradient of extinction over its largest (relative, if nothing is said), "
                   "or as it is (absolute): only where it rises do things shine")
+        ->type_name("[relative|absolute]")
         ->each([how, &material](const std::string& text) {
             if (text != "relative" && text != "absolute")
                 throw std::runtime_error(
@@ -97,9 +98,11 @@ void addSpecularByGradient(CLI::App& command, shading::Material& material) {
 
 void addLightOptions(CLI::App& command, shading::ShadingSettings& settings) {
     // first, so that the other options have the last word
-    command.add_option_function<std::string>(
-        "--lighting", [&settings](const std::string& path) { projection::readLighting(path, settings); },
-        "JSON file with lights and materials");
+    command
+        .add_option_function<std::string>(
+            "--lighting", [&settings](const std::string& path) { projection::readLighting(path, settings); },
+            "JSON file with lights and materials; the other options have the last word")
+        ->type_name("FILE.json");
     addRepeated(command, "--light", "dx,dy,dz", "direction towards a light; may be given several times",
                 [&settings](const std::string& text) { settings.lights.push_back(directionalLight(text)); });
     addRepeated(command, "--point-light", "x,y,z[,I[,r,g,b]]",
@@ -113,7 +116,8 @@ void addLightOptions(CLI::App& command, shading::ShadingSettings& settings) {
             settings.lights.push_back(light);
         },
         "a light at the eye");
-    addNumber<double>(command, "--ambient", settings.ambient, notNegative, "a number from 0", "ambient light, 0.1");
+    addNumber<double>(command, "--ambient", settings.ambient, notNegative, "a number from 0",
+                      "ambient light, 0.1 (Kraus 2005, Equation 19)");
     addNumber<double>(command, "--exponent", settings.exponent, notNegative, "a number from 0",
                       "specular exponent, 32");
     command.add_flag_callback(
@@ -122,7 +126,8 @@ void addLightOptions(CLI::App& command, shading::ShadingSettings& settings) {
         .add_option_function<std::string>(
             "--reflectance",
             [&settings](const std::string& name) { projection::setReflectance("--reflectance", name, settings); },
-            "how highlights are formed: phong, blinn-phong, ward and lafortune (stretched along the field's fibres), none; "
+            "how highlights are formed: phong, blinn-phong, ward and lafortune (stretched along the field's fibres), "
+            "none; "
             "henyey-greenstein: none, and a phase function")
         ->type_name("NAME");
     command
@@ -134,7 +139,10 @@ void addLightOptions(CLI::App& command, shading::ShadingSettings& settings) {
             "diffuse light by Henyey and Greenstein's phase function with this g, from -1 (back) to 1 (onward)")
         ->type_name("G");
     addParsed(command, "--normals", settings.normals, projection::normalsOf,
-              "cell: each cell's own; smooth: from gradients at the vertices", "NAME");
+              "cell: each cell's own; smooth: from gradients at the vertices, for light and silhouettes: where the "
+              "field is rough "
+              "or noisy and single cells show",
+              "NAME");
     command
         .add_option_function<std::string>(
             "--anisotropy", [&settings](const std::string& text) { setAnisotropy(text, settings.anisotropy); },

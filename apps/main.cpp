@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <apps/command_reference.h>
 #include <apps/commands.h>
 #include <apps/mesh_command.h>
 #include <apps/shape_options.h>
@@ -58,6 +59,15 @@ int run(int argumentCount, char** arguments) {
     program.require_subcommand(1);
     Command chosen;
     for (const auto add : commands) add(program, chosen);
+    program
+        .add_option_function<std::string>(
+            "--reference",
+            [&program](const std::string& format) {
+                fmt::print("{}", tetralux::apps::commandReference(program, format));
+                throw CLI::Success();
+            },
+            "this program's reference page: markdown or man")
+        ->group("");  // for the pages, not for users: in no help
     if (const std::string word = unknownCommand(program, argumentCount, arguments); !word.empty())
         return complain(fmt::format("there is no command '{}'; take one of {}", word, commandNames(program)));
     try {

@@ -60,7 +60,7 @@ std::vector<std::string> mesherPlaces() {
 
 void addMeshCommand(CLI::App& program, Command& chosen) {
     CLI::App* command = program.add_subcommand(
-        "mesh", "Turn points, surfaces or other cells into tetrahedra; 'tetralux mesh --help' says more");
+        "mesh", "points, surfaces or other cells to tetrahedra; 'tetralux mesh --help' says more");
     command->set_help_flag();   // the helper knows its own options
     command->prefix_command();  // all that follows is for it
     command->callback([command, &chosen] { chosen = [command] { return becomeMesher(command->remaining()); }; });

@@ -49,22 +49,25 @@ projection::Slice parseSlice(const std::string& option, const std::string& text)
 }
 
 void addOpaqueOptions(CLI::App& command, OpaqueOptions& options) {
-    addRepeated(command, "--slice", "px,py,pz,nx,ny,nz",
-                "slice through a point with a normal, opaque if nothing is said; may be given several times",
-                [&options](const std::string& text) { options.slices.push_back(parseSlice("--slice", text)); });
+    addRepeated(
+        command, "--slice", "px,py,pz,nx,ny,nz",
+        "slice through a point with a normal, in the colours of the scalar, opaque if nothing is said; may be given "
+        "several times",
+        [&options](const std::string& text) { options.slices.push_back(parseSlice("--slice", text)); });
     addRepeated(command, "--slice-opacity", "A", "how much a slice hides, from 0 to 1; one for all or one for each",
                 [&options](const std::string& text) { options.sliceOpacities.push_back(parseOpacity(text)); });
     addNumber<int>(
         command, "--isolines", options.isolines, [](double value) { return value >= 1.0 && value <= 1024.0; },
-        "a whole number from 1 to 1024", "so many equidistant isolines on every slice");
+        "a whole number from 1 to 1024", "lines on every slice at the middles of so many equal steps of the scalar");
     addNumber<double>(
         command, "--isoline-width", options.lines.width, [](double value) { return value > 0.0 && value <= 100.0; },
-        "pixels, above 0 and up to 100", "of isolines in pixels, 1.5");
+        "pixels, above 0 and up to 100", "width of isolines in pixels, 1.5");
     addParsed(command, "--isoline-color", options.lines.color, parseColor,
-              "of isolines; default: black where the slice is bright, white where it is dark", "r,g,b");
-    addRepeated(command, "--surface", "FILE",
-                "opaque surface in the volume (.stl .obj .ply .off .vtp .vtk); may be given several times",
-                [&options](const std::string& text) { options.surfaces.push_back(text); });
+              "colour of isolines; default: black where the slice is bright, white where it is dark", "r,g,b");
+    addRepeated(
+        command, "--surface", "FILE",
+        "opaque surface in the volume (.stl .obj .ply .off .vtp .vtk), lit unless flat; may be given several times",
+        [&options](const std::string& text) { options.surfaces.push_back(text); });
     addRepeated(
         command, "--surface-color", "r,g,b", "colour of the surfaces, 0.8,0.8,0.8; one for all or one for each",
         [&options](const std::string& text) { options.surfaceColors.push_back(parseColor("--surface-color", text)); });

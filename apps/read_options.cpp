@@ -15,7 +15,8 @@ void addReadOptions(CLI::App& command, mesh::ReadOptions& options) {
     addNumber<double>(command, "--merge", options.mergeTolerance, notNegative, "a length in mesh units, from 0",
                       "points within this distance become one");
     options.isolated = true;
-    command.add_flag("--smooth-cells", options.smoothCells, "cell fields become point fields, by averaging");
+    command.add_flag("--smooth-cells", options.smoothCells,
+                     "cell fields become point fields, by averaging over the cells at a point");
 }
 
 }  // namespace tetralux::apps

@@ -26,8 +26,12 @@ namespace {
 constexpr int usualVerifiedPixels = 1000;
 
 void addMeshOptions(CLI::App& command, RenderOptions& options) {
-    command.add_option("--scalar", options.scalar,
-                       "field to show: NAME (vectors by magnitude) or NAME:x (a component)");
+    command
+        .add_option(
+            "--scalar", options.scalar,
+            "field to show: NAME (vectors by magnitude), or NAME:x, NAME:xy as the file calls a component; NAME@cells: "
+            "beside one on points of that name")
+        ->type_name("NAME");
     addReadOptions(command, options.read);
     command.add_flag("--check", options.checkInterfaces,
                      "also of meshes of millions of cells: tell whether cells overlap or do not fit together");
@@ -36,8 +40,8 @@ void addMeshOptions(CLI::App& command, RenderOptions& options) {
 void addPictureOptions(CLI::App& command, RenderOptions& options) {
     addColorOptions(command, options.colors);
     addParsed(command, "--mode", options.settings.mode, parseMode, modeNames(), "MODE");
-    addParsed(command, "--background", options.background, parseBackground, "colour put under the picture, or none",
-              "r,g,b");
+    addParsed(command, "--background", options.background, parseBackground,
+              "colour put under the picture last, or none", "r,g,b");
 }
 
 void addLight(CLI::App& command, RenderOptions& options) {
@@ -64,7 +68,8 @@ void addCameraOptions(CLI::App& command, RenderOptions& options) {
     addNumber<int>(
         command, "--samples", options.settings.samples, [](double value) { return value >= 1.0 && value <= 64.0; },
         "a whole number from 1 to 64",
-        "anti-aliasing: so many rays per pixel, on a regular grid (the next square number of them), are averaged");
+        "anti-aliasing: so many rays per pixel, on a regular grid (the next square number: 4, 9, 16 … 64), are "
+        "averaged");
     addParsed(command, "--eye", options.eye, parseVector, "where from; default: a view that holds the mesh", "x,y,z");
     addParsed(command, "--target", options.target, parseVector, "where to; default: the mesh's centre", "x,y,z");
     addParsed(command, "--up", options.up, parseVector, "what is up; default: 0,1,0", "x,y,z");
@@ -76,12 +81,16 @@ void addCameraOptions(CLI::App& command, RenderOptions& options) {
 }
 
 void addMachineOptions(CLI::App& command, RenderOptions& options) {
-    command.add_option("--engine", options.engine.engine,
-                       fmt::format("what draws: auto, {}", fmt::join(projection::engineNames(), ", ")));
-    command.add_option("--context", options.engine.context, "OpenGL context: auto, egl, osmesa");
-    command.add_option("--gl-path", options.engine.glPath,
-                       fmt::format("who sets cells up for OpenGL, the processor or the GPU, and who draws them: {}",
-                                   fmt::join(projection::glPathNames(), ", ")));
+    command
+        .add_option("--engine", options.engine.engine,
+                    fmt::format("what draws: auto, {}", fmt::join(projection::engineNames(), ", ")))
+        ->type_name("NAME");
+    command.add_option("--context", options.engine.context, "OpenGL context: auto, egl, osmesa")->type_name("NAME");
+    command
+        .add_option("--gl-path", options.engine.glPath,
+                    fmt::format("who sets cells up for OpenGL, the processor or the GPU, and who draws them: {}",
+                                fmt::join(projection::glPathNames(), ", ")))
+        ->type_name("PATH");
     addParsed(command, "--order", options.settings.order, parseOrder,
               "how cells are put in order, for measuring: auto (certain), graph (certain, no keys), centroid (wrong in "
               "places, which are counted)",
@@ -90,15 +99,17 @@ void addMachineOptions(CLI::App& command, RenderOptions& options) {
                    "processor threads; default: all");
     command.add_flag_callback(
         "--no-early-termination", [&options] { options.settings.earlyTermination = false; },
-        "for measuring: draw also what lies behind opaque pixels");
+        "for measuring: draw also what lies behind opaque pixels; the picture is the same");
     command.add_flag_callback(
         "--no-skip-invisible", [&options] { options.settings.skipInvisible = false; },
-        "for measuring: draw also cells that the transfer function hides");
+        "for measuring: draw also cells that the transfer function hides; the picture is the same");
     addParsed(command, "--integration", options.settings.everyNode, parseIntegration,
               "cpu: auto (of more than 64 nodes, runs that a line meets within 1e-5 are one) or exact (every node)",
               "auto|exact");
-    addNumber<double>(command, "--table-error", options.settings.table.wantedError, positive, "a number above 0",
-                      "largest error of a pre-integration table, 1e-4");
+    addNumber<double>(
+        command, "--table-error", options.settings.table.wantedError, positive, "a number above 0",
+        "largest error of a pre-integration table, 1e-4; a table that misses it says so on standard error and in the "
+        "report");
     addNumber<int>(
         command, "--table-size", options.settings.table.size,
         [](double value) { return value >= 2.0 && value <= 8192.0; }, "a whole number from 2 to 8192",
@@ -106,20 +117,27 @@ void addMachineOptions(CLI::App& command, RenderOptions& options) {
 }
 
 void addOutputOptions(CLI::App& command, RenderOptions& options) {
-    command.add_option("-o,--output", options.output, "picture to write: .png or .exr (32-bit float RGBA)")->required();
+    command.add_option("-o,--output", options.output, "picture to write: .png or .exr (32-bit float RGBA)")
+        ->type_name("FILE")
+        ->required();
     addNumber<int>(
         command, "--frames", options.frames, [](double value) { return value >= 1.0 && value <= 1e6; },
         "a whole number from 1", "an orbit of so many pictures: OUT_0000.png, OUT_0001.png, ...");
-    addNumber<double>(command, "--preview", options.previewMilliseconds, positive, "milliseconds above 0",
-                      "first a quick picture, OUT_preview.png, whose frame takes no longer than so many milliseconds");
-    addNumber<int>(command, "--verify", options.verifiedPixels, positive, "a whole number from 1",
-                   "measure the error: compute so many pixels again by the reference, 1000")
+    addNumber<double>(
+        command, "--preview", options.previewMilliseconds, positive, "milliseconds above 0",
+        "first a quick picture, OUT_preview.png, whose frame takes no longer than so many milliseconds: fewer "
+        "pixels, a coarser mesh if need be");
+    addNumber<int>(
+        command, "--verify", options.verifiedPixels, positive, "a whole number from 1",
+        "measure the error: compute so many pixels (1000) of each frame again by the reference, with a 95 % bound for "
+        "all of them")
         ->expected(0, 1)
-        ->default_str(std::to_string(usualVerifiedPixels));
+        ->default_str(std::to_string(usualVerifiedPixels))
+        ->type_name("N");
     addNumber<double>(command, "--max-error", options.maxError, notNegative, "a number from 0",
                       "end with status 3 unless the rmse of all pixels is vouched for (95 % bound of --verify; without "
                       "it, as many pixels are computed again as that takes: nearly all)");
-    command.add_option("--report", options.report, "JSON file with cells, times and memory");
+    command.add_option("--report", options.report, "JSON file with cells, times and memory")->type_name("FILE.json");
     command.add_flag("--quiet", options.quiet, "nothing on standard output, no progress bar");
 }
 

@@ -166,16 +166,19 @@ void addShapeOptions(CLI::App& command, ShapeOptions& options, projection::Rende
     addClip(command, "--clip-box", "x0,x1,y0,y1,z0,z1", parseClipBox, options, "show only what lies within a box");
     addClip(command, "--slab", "px,py,pz,nx,ny,nz,thickness", parseSlab, options,
             "show only a slab about the point, across the normal");
-    addNumber<double>(command, "--cut-layer", options.cutLayer, notNegative, "a length from 0",
-                      "so far behind a cut light falls by the cut's normal, 1/200 of the diagonal");
+    addNumber<double>(
+        command, "--cut-layer", options.cutLayer, notNegative, "a length from 0",
+        "a layer behind the cut, so thick, is lit by the cut's normal; 1/200 of the diagonal of the mesh's box");
     addParsed(
         command, "--classification", settings.classification,
         [](const std::string& option, const std::string& text) { return chosen(option, text, classifications); },
         "what a cell's segment shows: the integral, one sample in its middle (post, post-linear), or what the vertices "
         "show (pre); for comparison",
         "preintegrated|post|post-linear|pre");
-    command.add_flag("--silhouette{exact}", options.silhouette,
-                     "thin layers seen edge-on become denser: exact (if nothing is said) or approximate");
+    command
+        .add_flag("--silhouette{exact}", options.silhouette,
+                  "thin layers seen edge-on become denser: exact (if nothing is said) or approximate")
+        ->type_name("[exact|approximate]");
     addNumber<double>(command, "--gradient-opacity", settings.shading.gradientOpacity, positive, "a number above 0",
                       "extinction times so many times the gradient's magnitude (ranges per diagonal)");
     addNumber<int>(

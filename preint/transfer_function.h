@@ -47,7 +47,7 @@ struct TransferFunction {
     bool logarithmic = false;  ///< of a normalized one: fractions of the logarithm's range
     /// Scalars over which it is stretched, from and to; nothing: the field's range, and one that is not normalized
     /// stays.
-    std::optional<glm::dvec2> range;
+    std::optional<glm::dvec2> range{};
     /// Extinction is per extent of what is drawn (bounding-box diagonal, or scalar range in the scale-invariant
     /// integral), so that presets look the same in any units.
     bool extinctionPerExtent = false;
@@ -55,11 +55,11 @@ struct TransferFunction {
     bool extinctionSuggested = false;
     /// In place of extinction: τ = −ln(1 − α)/unitDistance, and where α = 1 1e4 per diagonal of the mesh (or per range
     /// of the scalar). Linear in α between nodes, to within 1/1024.
-    std::vector<OpacityNode> opacity;
-    std::optional<double>
-        unitDistance;           ///< mesh units (or of the scalar); nothing: 1/50 of the diagonal (or the range)
+    std::vector<OpacityNode> opacity{};
+    /// Mesh units (or of the scalar); nothing: 1/50 of the diagonal (or the range).
+    std::optional<double> unitDistance{};
     double opacityScale = 1.0;  ///< extinction, and the opacity of isosurfaces up to 1, times this
-    std::vector<glm::dvec3> categories;  ///< in place of `color`: one for each value (categorical_colors.h)
+    std::vector<glm::dvec3> categories{};  ///< in place of `color`: one for each value (categorical_colors.h)
 
     glm::dvec3 colorAt(double scalar) const;  ///< at a jump: the value from above
     double extinctionAt(double scalar) const;

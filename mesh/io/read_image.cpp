@@ -66,6 +66,24 @@ std::array<glm::dvec3, 3> metaDirections(const std::string& source) {
     return directions;
 }
 
+/// The first and the last of the files that `pattern`, a name with one %d or %03d in it, stands for.
+std::vector<std::string> numberedFiles(const std::string& pattern, int first, int last) {
+    const std::size_t percent = pattern.find('%');
+    const std::size_t end = pattern.find('d', percent);
+    if (end >= pattern.size()) {
+        return {};
+    }
+    const std::string format = pattern.substr(percent + 1, end - percent - 1);
+    const std::size_t width = format.empty() ? 0 : std::strtoul(format.c_str(), nullptr, 10) % 64;
+    std::vector<std::string> names;
+    for (const int number : {first, last}) {
+        const std::string digits =
+            format.starts_with('0') ? fmt::format("{:0{}}", number, width) : fmt::format("{:{}}", number, width);
+        names.push_back(pattern.substr(0, percent) + digits + pattern.substr(end + 1));
+    }
+    return names;
+}
+
 /// The files that hold the values of a MetaImage, by its head: one, a list of slices, or a pattern for their numbers.
 /// None if the values stand in the file itself.
 std::vector<std::string> metaFiles(const std::string& source) {
@@ -86,18 +104,11 @@ std::vector<std::string> metaFiles(const std::string& source) {
                     names.push_back(next);
                 }
             }
-        } else if (const std::size_t percent = name.find('%'); percent != std::string::npos) {
+        } else if (name.find('%') < name.size()) {
             int first = 0;
             int last = 0;
-            const std::size_t end = name.find('d', percent);
-            if (words >> first >> last && end != std::string::npos) {
-                const std::string format = name.substr(percent + 1, end - percent - 1);
-                const std::size_t width = format.empty() ? 0 : std::strtoul(format.c_str(), nullptr, 10) % 64;
-                for (const int number : {first, last}) {
-                    const std::string digits = format.starts_with('0') ? fmt::format("{:0{}}", number, width)
-                                                                       : fmt::format("{:{}}", number, width);
-                    names.push_back(name.substr(0, percent) + digits + name.substr(end + 1));
-                }
+            if (words >> first >> last) {
+                names = numberedFiles(name, first, last);
             }
         } else if (name != "LOCAL" && name != "Local" && name != "local" && !name.empty()) {
             std::string rest;

@@ -214,8 +214,8 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
 
 /// Sets up the first (up to eight) of `entries`; the number of cells in the batch.
 template <bool Orthographic, GradientParts gradients>
-HWY_INLINE std::size_t setUpBatch(const TileFrame& frame, int tileX, int tileY, std::span<const TileEntry> entries,
-                                  CellBatch& batch) {
+inline HWY_NOINLINE std::size_t setUpBatchAs(const TileFrame& frame, int tileX, int tileY,
+                                             std::span<const TileEntry> entries, CellBatch& batch) {
     const std::size_t cells = std::min<std::size_t>(entries.size(), CellBatch::capacity);
     TileEntry padded[CellBatch::capacity];
     const TileEntry* eight = entries.data();
@@ -236,6 +236,14 @@ HWY_INLINE std::size_t setUpBatch(const TileFrame& frame, int tileX, int tileY, 
         }
     if (frame.attributes && !frame.vertexLight->corners.empty()) takeRowsOfCells(frame, entries, cells, batch);
     return cells;
+}
+
+/// A function of its own, which all kernels share.
+template <GradientParts gradients>
+HWY_INLINE std::size_t setUpBatch(const TileFrame& frame, int tileX, int tileY, std::span<const TileEntry> entries,
+                                  CellBatch& batch) {
+    return frame.orthographic ? setUpBatchAs<true, gradients>(frame, tileX, tileY, entries, batch)
+                              : setUpBatchAs<false, gradients>(frame, tileX, tileY, entries, batch);
 }
 
 }  // namespace tetralux::projection::HWY_NAMESPACE

@@ -58,18 +58,17 @@ struct CellBlocks {
 
 /// A block of pixels of one cell.
 struct Block {
-    std::size_t j, at;          ///< cell of the batch, place in the accumulators
-    int x, y;                   ///< first pixel within the tile
-    real dx, dy, in, out;       ///< pixels from the cell's reference point, nearness there
-    real rayLength;             ///< per unit depth
-    bool inCutLayer;            ///< the segments lie in the layer of a cut: its normal is lit
+    std::size_t j, at;     ///< cell of the batch, place in the accumulators
+    int x, y;              ///< first pixel within the tile
+    real dx, dy, in, out;  ///< pixels from the cell's reference point, nearness there
+    real rayLength;        ///< per unit depth
+    bool inCutLayer;       ///< the segments lie in the layer of a cut: its normal is lit
 };
 
 /// scalarFall of the block's rays in cell j.
-template <bool Orthographic>
-HWY_INLINE real cellFall(const CellBatch& batch, std::size_t j, real dx, real dy) {
+HWY_INLINE real cellFall(const CellBatch& batch, std::size_t j, real dx, real dy, bool orthographic) {
     real across(0.0f);
-    if constexpr (!Orthographic) across = real(batch.scalarPerX[j]) * dx + real(batch.scalarPerY[j]) * dy;
+    if (!orthographic) across = real(batch.scalarPerX[j]) * dx + real(batch.scalarPerY[j]) * dy;
     return scalarFall(across, cell_real{batch.scalarPerRho[j]});
 }
 

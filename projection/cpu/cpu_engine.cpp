@@ -216,8 +216,8 @@ void CpuEngine::prepare() {
     frame_.shading = &shading;
     frame_.lightInFull = shading.lit() && !shading.plain();
     frame_.smoothSilhouettes = shading.smoothSilhouettes();
-    frame_.attributes = (frame_.lightInFull && vertexLight_->any()) || vertexLight_->sampleAt >= 0 ||
-                        frame_.smoothSilhouettes;
+    frame_.attributes =
+        (frame_.lightInFull && vertexLight_->any()) || vertexLight_->sampleAt >= 0 || frame_.smoothSilhouettes;
     frame_.lightModel = lightModelFloats(shading);
     frame_.vertexLight = vertexLight_.get();
     frame_.earlyTermination = skips_.earlyTermination && scene_.settings.earlyTermination;
@@ -294,9 +294,11 @@ void CpuEngine::setLimits(const View& view) {
     if (mapped) limits_ = tileLimits(*view.maps, cameraFrame(view.camera), frame_, units_);
     frame_.limits = mapped ? &limits_ : nullptr;
     const auto& shading = scene_.settings.shading;
-    limited_ = mapped || frame_.classification != Classification::Preintegrated || frame_.kind == TileKind::Additive ||
-               frame_.kind == TileKind::Depth || frame_.contributions.perCell ||
-               (frame_.kind == TileKind::Absorption && shading.needsGradient() && !quickDepth());
+    const bool quickKind = frame_.kind == TileKind::Composite || frame_.kind == TileKind::Shaded ||
+                           frame_.kind == TileKind::FirstHit ||
+                           (frame_.kind == TileKind::Absorption && (!shading.needsGradient() || quickDepth()));
+    limited_ =
+        mapped || !quickKind || frame_.classification != Classification::Preintegrated || frame_.contributions.perCell;
     const DepthRange range = depthRange(mesh_.bounds, view.camera);
     frame_.greyOfReference = range.greyAt(frame_.depthReference * units_.length);
     frame_.greyPerDistance = range.greyPerDistance() * units_.length;

@@ -63,7 +63,7 @@ struct BlockLook {
     real fall;                ///< scalarFall: its sign is that of s_f − s_b, which is that of v·n
     real rayLength, inverse;  ///< per unit depth, and one over it
     real x, y;                ///< unit direction of a ray: inverse·(x, y, 1), (right, down, forward)
-    vec3 place;  ///< of the segments' middles (middlePlace): where QuickLook::places
+    vec3 place;               ///< of the segments' middles (middlePlace): where QuickLook::places
 };
 
 /// For a ≥ 0. Whole exponents by squaring.
@@ -80,9 +80,7 @@ HWY_INLINE real lobeOf(const QuickLook& look, real cosine) {
     }
 }
 
-template <bool Orthographic>
 HWY_INLINE real cosineTo(const float (&direction)[3], const BlockLook& block) {
-    if constexpr (Orthographic) return real(direction[2]);
     return block.inverse * (real(direction[0]) * block.x + (real(direction[1]) * block.y + real(direction[2])));
 }
 
@@ -96,7 +94,6 @@ struct LightShares {
     HWY_INLINE real white(std::size_t channel) const { return whites[channel % channels]; }
 };
 
-template <bool Orthographic>
 HWY_INLINE LightShares<Look::Lit> plainShares(const QuickLook& look, const CellLook& cell, const BlockLook& block,
                                               mask live, real opacity) {
     const real zero(0.0f), through = look.transmission ? real(1.0f) - opacity : zero;
@@ -106,10 +103,10 @@ HWY_INLINE LightShares<Look::Lit> plainShares(const QuickLook& look, const CellL
         const mask reflects = both(live, facing > zero), transmits = both(live, facing < zero);
         if (!none(reflects)) {
             color += keep(reflects, amount);
-            white = white + keep(reflects, lobeOf(look, cosineTo<Orthographic>(cell.reflected[i], block)));
+            white = white + keep(reflects, lobeOf(look, cosineTo(cell.reflected[i], block)));
         }
         if (look.transmission && !none(transmits)) {
-            color += keep(transmits, through) * (amount + lobeOf(look, cosineTo<Orthographic>(look.lamps[i].place, block)));
+            color += keep(transmits, through) * (amount + lobeOf(look, cosineTo(look.lamps[i].place, block)));
         }
     }
     return {{color}, {white}};
@@ -123,20 +120,19 @@ struct LampLight {
     real strength;  ///< what distance leaves of it
 };
 
-template <bool Orthographic>
 HWY_INLINE LampLight lightOf(const QuickLook& look, std::size_t i, const CellLook& cell, const BlockLook& block,
                              real viewSide) {
     const QuickLamp& lamp = look.lamps[i];
     const real one(1.0f);
     if (lamp.kind == 0)
-        return {block.fall * real(cell.lightSide[i]), real(std::abs(cell.lightSide[i])),
-                -cosineTo<Orthographic>(lamp.place, block), one};
+        return {block.fall * real(cell.lightSide[i]), real(std::abs(cell.lightSide[i])), -cosineTo(lamp.place, block),
+                one};
     LampLight light{abs(block.fall), viewSide, one, one};
     if (lamp.kind == 2 && !lamp.fades) return light;
     const vec3 way(real(lamp.place[0]) - block.place.x, real(lamp.place[1]) - block.place.y,
                    real(lamp.place[2]) - block.place.z);
     // the light at the eye of an orthographic view stands behind each pixel
-    const real apart = Orthographic && lamp.kind == 2 ? way.z * way.z : dot(way, way);
+    const real apart = look.orthographic && lamp.kind == 2 ? way.z * way.z : dot(way, way);
     const real square = max(apart, real(1e-36f)), perReach = one / sqrt(square);
     if (lamp.fades)
         light.strength =
@@ -146,8 +142,7 @@ HWY_INLINE LampLight lightOf(const QuickLook& look, std::size_t i, const CellLoo
     if (lamp.kind == 2) return light;
     const real side =
         perReach * (real(cell.normal[0]) * way.x + real(cell.normal[1]) * way.y + real(cell.normal[2]) * way.z);
-    real along = way.z;
-    if constexpr (!Orthographic) along = block.inverse * (block.x * way.x + block.y * way.y + way.z);
+    const real along = block.inverse * (block.x * way.x + block.y * way.y + way.z);
     light.facing = block.fall * side;
     light.amount = abs(side);
     light.toView = -(perReach * along);
@@ -158,7 +153,6 @@ HWY_INLINE real halfwayCosine(real amount, real viewSide, real toView) {
     return (amount + viewSide) / sqrt(max(real(2.0f) + real(2.0f) * toView, real(1e-12f)));
 }
 
-template <bool Orthographic>
 HWY_INLINE LightShares<Look::Lamps> lampShares(const QuickLook& look, const CellLook& cell, const BlockLook& block,
                                                mask live, real opacity) {
     const real zero(0.0f), two(2.0f);
@@ -169,7 +163,7 @@ HWY_INLINE LightShares<Look::Lamps> lampShares(const QuickLook& look, const Cell
     }
     const real viewSide = abs(block.fall) * block.inverse * real(cell.perSteepness), left = real(1.0f) - opacity;
     for (std::size_t i = 0; i < look.lights; ++i) {
-        const LampLight light = lightOf<Orthographic>(look, i, cell, block, viewSide);
+        const LampLight light = lightOf(look, i, cell, block, viewSide);
         const mask reflects = both(live, light.facing > zero), transmits = both(live, light.facing < zero);
         real colored = zero, specular = zero;
         if (!none(reflects)) {
@@ -193,13 +187,13 @@ HWY_INLINE LightShares<Look::Lamps> lampShares(const QuickLook& look, const Cell
     return shares;
 }
 
-template <Look look, bool Orthographic>
+template <Look look>
 HWY_INLINE LightShares<look> lightShares(const QuickLook& quick, const CellLook& cell, const BlockLook& block,
                                          mask live, real opacity) {
     if constexpr (look == Look::Lamps)
-        return lampShares<Orthographic>(quick, cell, block, live, opacity);
+        return lampShares(quick, cell, block, live, opacity);
     else
-        return plainShares<Orthographic>(quick, cell, block, live, opacity);
+        return plainShares(quick, cell, block, live, opacity);
 }
 
 }  // namespace tetralux::projection::HWY_NAMESPACE

@@ -28,22 +28,21 @@ struct SegmentMiddles {
 };
 
 /// Of segments between two values of rho.
-template <bool Orthographic>
-HWY_INLINE SegmentMiddles segmentMiddles(real dx, real dy, real in, real out) {
+HWY_INLINE SegmentMiddles segmentMiddles(real dx, real dy, real in, real out, bool orthographic) {
     const real half(0.5f);
-    if constexpr (Orthographic) return {dx, dy, real(1.0f), half * (in + out)};
+    if (orthographic) return {dx, dy, real(1.0f), half * (in + out)};
     const real ratioIn = reciprocal(real(1.0f) + in), ratioOut = reciprocal(real(1.0f) + out);
     return {dx, dy, half * (ratioIn + ratioOut), half * (ratioIn * in + ratioOut * out)};
 }
 
 /// A segment that is lit, as the short way hands it on.
 struct SegmentToLight {
-    vec3 color;       ///< C_seg/α_seg
-    real opacity;     ///< after the silhouette
-    real side;        ///< sign of s_f − s_b
+    vec3 color;        ///< C_seg/α_seg
+    real opacity;      ///< after the silhouette
+    real side;         ///< sign of s_f − s_b
     real front, back;  ///< scalars at its ends
-    vec3 towards;     ///< of the ray, unit, (right, down, forward)
-    const vec3* cut;  ///< normal of the cut in whose layer the segments lie (pixel_maps.h); nullptr: they lie in none
+    vec3 towards;      ///< of the ray, unit, (right, down, forward)
+    const vec3* cut;   ///< normal of the cut in whose layer the segments lie (pixel_maps.h); nullptr: they lie in none
 };
 
 HWY_INLINE vec3 broadcast(const glm::vec3& v) {
@@ -90,9 +89,10 @@ struct CornerValues {
     }
 };
 
-/// Unit smoothed gradient (shading::Normals::Smooth), and where there is one; else 0.
+/// Unit smoothed gradient (shading::Normals::Smooth), its size, and where there is one; else 0.
 struct SmoothNormal {
     vec3 normal;
+    real magnitude;
     mask any;
 };
 HWY_INLINE SmoothNormal smoothNormalAt(const shading::VertexLight& kept, const float* const (&values)[4],
@@ -100,17 +100,21 @@ HWY_INLINE SmoothNormal smoothNormalAt(const shading::VertexLight& kept, const f
     const vec3 gradient = vectorAt(values, kept.normalAt, weights);
     const real square = dot(gradient, gradient);
     const mask any = square > real(1e-30f);
-    return {keep(any, real(1.0f) / sqrt(max(square, real(1e-30f)))) * gradient, any};
+    const real magnitude = sqrt(max(square, real(1e-30f)));
+    return {keep(any, real(1.0f) / magnitude) * gradient, keep(any, magnitude), any};
 }
 
-/// ḡ·d/|ḡ| of silhouettes that follow the smoothed gradient ḡ; 1 where there is none.
-inline HWY_NOINLINE real smoothCosine(const TileFrame& frame, const CellBatch& batch, std::size_t j,
-                                      const SegmentMiddles& middles, vec3 towards) {
+/// The smoothed gradient ḡ that silhouettes follow: |ḡ| in ranges per diagonal, and ḡ·d/|ḡ|; 1 where there is none.
+struct SmoothSlope {
+    real magnitude, cosine;
+};
+inline HWY_NOINLINE SmoothSlope smoothSlope(const TileFrame& frame, const CellBatch& batch, std::size_t j,
+                                            const SegmentMiddles& middles, vec3 towards) {
     real weights[4];
     middleCoordinates(batch, j, middles, weights);
     const CornerValues values(*frame.vertexLight, batch, j);
     const SmoothNormal smooth = smoothNormalAt(*frame.vertexLight, values.of, weights);
-    return select(smooth.any, dot(smooth.normal, worldFromCamera(frame, towards)), real(1.0f));
+    return {smooth.magnitude, select(smooth.any, dot(smooth.normal, worldFromCamera(frame, towards)), real(1.0f))};
 }
 
 /// What the isosurfaces of the segments' cell leave of light that comes from `towards` (world).
@@ -164,7 +168,8 @@ HWY_INLINE vec3 arriving(const FrameLight& light, vec3 place, vec3 view, vec3& t
     return attenuation(broadcast(light.fade), reach) * color;
 }
 
-/// Colour per α in the light. `place`: the segments' middles, (right, down, forward) from where FrameLight's places are, scene lengths.
+/// Colour per α in the light. `place`: the segments' middles, (right, down, forward) from where FrameLight's places
+/// are, scene lengths.
 inline HWY_NOINLINE vec3 lightInFull(const TileFrame& frame, const CellBatch& batch, std::size_t j,
                                      const SegmentMiddles& middles, vec3 place, const SegmentToLight& segment) {
     LightModel model = broadcastModel(frame.lightModel);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// The kernels of pictures with limits, other classifications and modes that hide nothing (cpu_limited_segment.h).
+/// The kernels for everything: limits, other classifications, modes that hide nothing (cpu_limited_segment.h), extreme
+/// and mean scalars.
 #include <projection/cpu/cpu_targets.h>
 
 #undef HWY_TARGET_INCLUDE
@@ -16,10 +17,7 @@ namespace tetralux::projection::HWY_NAMESPACE {
 template <TileKind Kind>
 void drawLimitedAs(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
                    TileResult& result) {
-    if (frame.orthographic)
-        drawTileAs<Kind, true, false, true, true>(frame, x0, y0, entries, image, result);
-    else
-        drawTileAs<Kind, false, false, true, true>(frame, x0, y0, entries, image, result);
+    drawTileAs<Kind, false, true, true>(frame, x0, y0, entries, image, result);
 }
 
 void drawLimitedTileHere(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,

@@ -171,7 +171,6 @@ HWY_INLINE Sample segmentSample(const TileFrame& frame, const CellBatch& batch, 
 }
 
 /// What segments show by classification, contributions and the pixels' factor of extinction (`scale`).
-template <bool Orthographic>
 struct ClassifiedSegments {
     const TileFrame& frame;
     const CellBatch& batch;
@@ -197,7 +196,7 @@ struct ClassifiedSegments {
     }
 
     HWY_INLINE Sample sample() const {
-        const auto middles = segmentMiddles<Orthographic>(block.dx, block.dy, block.in, block.out);
+        const auto middles = segmentMiddles(block.dx, block.dy, block.in, block.out, frame.orthographic);
         return segmentSample(frame, batch, block.j, middles, first, last, segments);
     }
 
@@ -273,9 +272,8 @@ HWY_INLINE FirstShown firstShown(const CpuTransfer& transfer, std::size_t first,
     const auto& peaks = transfer.peaks();
     const mask rising = both(segments.back > segments.front, segments.live),
                falling = both(segments.back < segments.front, segments.live);
-    auto meetPeak = [&](const TransferPeak& peak, mask lanes, FirstShown& shown) HWY_ATTR {
-        shown.meet(both(lanes, crossed(peak, segments)), real(peak.value));
-    };
+    auto meetPeak = [&](const TransferPeak& peak, mask lanes, FirstShown& shown)
+                        HWY_ATTR { shown.meet(both(lanes, crossed(peak, segments)), real(peak.value)); };
     FirstShown result{segments.front, segments.front < segments.front};
     for (std::size_t k = first; k <= last && !none(rising); ++k) {
         meetPiece(pieces[k], segments, rising, result);

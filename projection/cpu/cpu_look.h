@@ -64,7 +64,7 @@ HWY_INLINE real enhancedDepth(const CpuTransfer& transfer, const CellLook& cell,
 }
 
 /// Segments of one block with a look, composited into `sink`.
-template <Look look, bool Orthographic, bool ScaleInvariant, bool Peaks, CellShows shows>
+template <Look look, bool ScaleInvariant, bool Peaks, CellShows shows>
 struct LookedSegments {
     static constexpr bool Lit = look != Look::Silhouettes;
     const TileFrame& frame;
@@ -148,7 +148,7 @@ private:
     }
 
     HWY_INLINE void addLit(const TransferPiece& piece, real opacity, real weighted, ColorSink& sink) const {
-        const auto light = lightShares<look, Orthographic>(frame.look, cell, block, segments.live, opacity);
+        const auto light = lightShares<look>(frame.look, cell, block, segments.live, opacity);
         const real ta = sink.t * opacity, tq = sink.t * weighted;
         const auto channel = [&](std::size_t c, real& sum) HWY_ATTR {
             sum += (real(piece.color[c]) * ta + real(piece.colorSlope[c]) * tq) * light.color(c) + ta * light.white(c);
@@ -162,7 +162,7 @@ private:
     /// α′ of an isosurface.
     HWY_INLINE real enhancedOpacity(const TransferPeak& peak) const {
         if (shows == CellShows::NarrowPeak || (shows != CellShows::WidePeak && peaks.narrow(cell.j)))
-            return peaks.template opacity<Orthographic>(cell.j, block.fall, block.inverse);
+            return peaks.opacity(cell.j, block.fall, block.inverse);
         return real(1.0f) - fadeOf(min(real(peak.depth) * silhouetteFactor(cell, block), real(80.0f)));
     }
 
@@ -172,7 +172,7 @@ private:
         const real opacity = silhouettes() ? enhancedOpacity(peak) : real(peak.opacity);
         const real ta = keep(hits, sink.t * opacity);
         if constexpr (Lit) {
-            const auto light = lightShares<look, Orthographic>(frame.look, cell, block, hits, opacity);
+            const auto light = lightShares<look>(frame.look, cell, block, hits, opacity);
             sink.r += ta * (real(peak.color[0]) * light.color(0) + light.white(0));
             sink.g += ta * (real(peak.color[1]) * light.color(1) + light.white(1));
             sink.b += ta * (real(peak.color[2]) * light.color(2) + light.white(2));
@@ -271,7 +271,7 @@ private:
         }
         const real ta = sink.t * opacity;
         if constexpr (Lit) {
-            const auto light = lightShares<look, Orthographic>(frame.look, cell, block, segments.live, opacity);
+            const auto light = lightShares<look>(frame.look, cell, block, segments.live, opacity);
             sink.r += whole.r * share * light.color(0) + ta * light.white(0);
             sink.g += whole.g * share * light.color(1) + ta * light.white(1);
             sink.b += whole.b * share * light.color(2) + ta * light.white(2);

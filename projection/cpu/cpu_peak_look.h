@@ -65,9 +65,7 @@ struct PeakLooks {
     const TransferPeak* onlyPeak(std::size_t j) const { return veiled[j] ? nullptr : peak[j]; }
 
     /// Of pixels of cell j: scalarFall, and one over the ray per depth.
-    template <bool Orthographic>
     HWY_INLINE real opacity(std::size_t j, real fall, real inverse) const {
-        if constexpr (Orthographic) return real(power[0][j]);
         const real x = fall * inverse - real(centre[j]);
         real p = real(power[4][j]) * x + real(power[3][j]);
         for (std::size_t i = 3; i-- > 0;) p = p * x + real(power[i][j]);
@@ -88,11 +86,10 @@ struct PeakView {
     hn::Vec<CellTag> fall, spread;
 };
 
-template <bool Orthographic>
-HWY_INLINE PeakView peakView(const CellBatch& batch, std::size_t j) {
+HWY_INLINE PeakView peakView(const CellBatch& batch, std::size_t j, bool orthographic) {
     const CellTag tag;
     const auto perRho = hn::LoadU(tag, batch.scalarPerRho + j);
-    if constexpr (Orthographic) return {perRho, hn::Zero(tag)};
+    if (orthographic) return {perRho, hn::Zero(tag)};
     const hn::RebindToSigned<CellTag> whole;
     hn::Vec<decltype(whole)> beginX, beginY, endX, endY;
     hn::LoadInterleaved2(whole, &batch.begin[j][0], beginX, beginY);
@@ -120,12 +117,12 @@ HWY_INLINE real pixelLanes(Lanes cells) {
 }
 
 /// The polynomials of a batch. `depth`: D of each cell's isosurface.
-template <bool Orthographic>
-HWY_INLINE void setPolynomials(const CellBatch& batch, const float* depth, const TileRays& rays, PeakLooks& looks) {
+HWY_INLINE void setPolynomials(const CellBatch& batch, const float* depth, const TileRays& rays, bool orthographic,
+                               PeakLooks& looks) {
     const CellTag tag;
     const real one(1.0f);
     for (std::size_t j = 0; j < CellBatch::capacity; j += hn::Lanes(tag)) {
-        const PeakView view = peakView<Orthographic>(batch, j);
+        const PeakView view = peakView(batch, j, orthographic);
         const real fall = pixelLanes(view.fall), perFall = one / fall, perCentre = perFall * real(1.0f / rays.inverse);
         const real steepness =
             abs(pixelLanes(hn::LoadU(tag, batch.scale + j))) * pixelLanes(hn::LoadU(tag, batch.gradient + j));
@@ -164,9 +161,8 @@ HWY_INLINE void findPieces(const CpuTransfer& transfer, const CellBatch& batch, 
 
 /// The pieces that the batch's cells meet, their isosurface where there is just one, and its polynomial where there are
 /// silhouettes.
-template <bool Orthographic>
-HWY_INLINE void lookAtPeaks(const TileFrame& frame, const CellBatch& batch, std::size_t cells, const TileRays& rays,
-                            PeakLooks& looks) {
+inline HWY_NOINLINE void lookAtPeaks(const TileFrame& frame, const CellBatch& batch, std::size_t cells,
+                                     const TileRays& rays, PeakLooks& looks) {
     alignas(64) float depth[CellBatch::capacity] = {};
     bool any = false;
     for (std::size_t j = 0; j < cells; ++j) {
@@ -180,11 +176,11 @@ HWY_INLINE void lookAtPeaks(const TileFrame& frame, const CellBatch& batch, std:
         any = true;
     }
     if (!any || !frame.look.silhouettes) return;
-    setPolynomials<Orthographic>(batch, depth, rays, looks);
+    setPolynomials(batch, depth, rays, frame.orthographic, looks);
 }
 
 /// Fills the tile's inverse ray lengths.
-inline TileRays inverseRayLengths(TileBuffers& px) {
+inline HWY_NOINLINE TileRays inverseRayLengths(TileBuffers& px) {
     const real least(-3e38f);
     real most = least, mostNegated = least;
     for (std::size_t i = 0; i < tilePixels; i += laneCount()) {

@@ -19,7 +19,8 @@ bool lampsSuffice(const shading::ShadingSettings& settings) {
     return (settings.reflectance == Reflectance::Phong || settings.reflectance == Reflectance::BlinnPhong) &&
            settings.normals == shading::Normals::Cell && !settings.needsShadows() &&
            !settings.material.phaseAsymmetry &&
-           settings.material.specularByGradient == shading::GradientSpecular::Off && front.specular == back.specular && front.exponent == back.exponent;
+           settings.material.specularByGradient == shading::GradientSpecular::Off && front.specular == back.specular &&
+           front.exponent == back.exponent;
 }
 
 QuickLamp quickLamp(const FrameLight& light, const glm::vec3& specular, const TileFrame& frame) {
@@ -51,6 +52,7 @@ QuickLook quickLook(const shading::ShadingSettings& shading, const TileFrame& fr
     quick.look = frame.fullLights.empty() ? Look::Silhouettes : plain ? Look::Lit : Look::Lamps;
     quick.silhouettes = shading.silhouette;
     quick.transmission = shading.transmission;
+    quick.orthographic = frame.orthographic;
     for (const FrameLight& light : frame.fullLights) {
         QuickLamp& lamp = quick.lamps[quick.lights++];
         lamp = quickLamp(light, frame.lightModel.frontSpecular, frame);

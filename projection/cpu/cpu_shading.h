@@ -52,13 +52,19 @@ HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& b
     const real inverse = select(sink.opacity > real(0.0f), real(1.0f) / max(sink.opacity, real(1e-37f)), real(0.0f));
     vec3 mean = inverse * vec3(sink.r, sink.g, sink.b);
     const bool enhanced = shading.silhouette && (frame.smoothSilhouettes || batch.gradient[j] > 0);
-    if (HWY_UNLIKELY(frame.smoothSilhouettes)) {
-        depth = silhouetteDepth(real(0.0f), depth, smoothCosine(frame, batch, j, middles(), towards));
-    } else if (enhanced) {
-        const real cosine = dot(normal, towards);
+    if (enhanced) {
+        real cosine, steepness;
+        if (HWY_UNLIKELY(frame.smoothSilhouettes)) {
+            const SmoothSlope slope = smoothSlope(frame, batch, j, middles(), towards);
+            cosine = slope.cosine;
+            steepness = slope.magnitude;
+        } else {
+            cosine = dot(normal, towards);
+            steepness = magnitude;
+        }
         if constexpr (ScaleInvariant) {
             const real extinction = sink.smoothDepth / variationOf(segments);
-            depth = silhouetteDepth(extinction * magnitude * segments.length, sink.otherDepth, cosine);
+            depth = silhouetteDepth(extinction * steepness * segments.length, sink.otherDepth, cosine);
         } else {
             depth = silhouetteDepth(real(0.0f), depth, cosine);
         }
@@ -76,9 +82,8 @@ HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& b
     real side = select(fall > real(0.0f), real(1.0f), select(fall < real(0.0f), real(-1.0f), real(0.0f)));
     if (cut != nullptr) side = real(1.0f);
     if (HWY_UNLIKELY(frame.lightInFull)) {
-        const vec3 lit =
-            lightInFull(frame, batch, j, middles(), place(),
-                        {mean, opacity, side, segments.front, segments.back, towards, cut});
+        const vec3 lit = lightInFull(frame, batch, j, middles(), place(),
+                                     {mean, opacity, side, segments.front, segments.back, towards, cut});
         return {lit.x, lit.y, lit.z, opacity, depth};
     }
     vec3 light = real(shading.ambient) * mean;

@@ -16,8 +16,8 @@
 #include <projection/cells/cell_constants.h>
 #include <projection/cells/cell_setup.h>
 #include <projection/core/camera.h>
-#include <projection/core/transfer_support.h>
 #include <projection/core/scene.h>
+#include <projection/core/transfer_support.h>
 #include <projection/cpu/cpu_transfer.h>
 #include <projection/image/image.h>
 #include <projection/light/light_frame.h>
@@ -37,12 +37,12 @@ struct TileEntry {
 enum class TileKind {
     Composite,   ///< colour and transmittance, front to back
     Absorption,  ///< optical depth only: all that is seen has one colour
+    Shaded,      ///< composite with silhouettes or light
+    FirstHit,
+    // by drawLimitedTile only
     Mip,
     Minimum,
     Average,
-    Shaded,  ///< composite with silhouettes or light
-    FirstHit,
-    // by the kernel that also honours limits and other classifications only (drawLimitedTile)
     Additive,  ///< light of all segments, none hidden
     Depth      ///< where along the ray something is first seen
 };
@@ -83,6 +83,7 @@ struct QuickLook {
     unsigned wholeExponent = 0;  ///< the exponent, when it is a whole number that squaring makes; else 0
     float leastCosine = 0;       ///< below it a lobe is less than 1e-8
     // of Look::Lamps
+    bool orthographic = false;
     bool halfway = false;  ///< lobes about the half-way vector
     bool places = false;   ///< some lamp asks where the segments are
     float diffuse = 1, specular = 1, diffuseThrough = 1, specularThrough = 1;
@@ -126,7 +127,8 @@ struct TileFrame {
     bool emissionOnly = false;   ///< Additive: alpha stays 0
     ContributionWeights contributions{};
     double greyOfReference = 0,
-           greyPerDistance = 0;  ///< grey of TileKind::Depth at the distance depthReference, and per scene length beyond
+           greyPerDistance =
+               0;  ///< grey of TileKind::Depth at the distance depthReference, and per scene length beyond
 };
 
 struct TileResult {
@@ -136,7 +138,7 @@ struct TileResult {
     std::vector<std::uint32_t> doubtfulPixels;
 };
 
-/// Draws the tile whose first pixel is (x0, y0) into `image`.
+/// Draws the tile whose first pixel is (x0, y0) into `image`: the most usual pictures, without limits.
 void drawTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
               TileResult& result);
 

@@ -30,7 +30,7 @@ namespace tetralux::projection::HWY_NAMESPACE {
 /// `Limited`: within frame.limits and with frame.classification; then ScaleInvariant is false and frame.scaleInvariant
 /// counts, and Peaks is true.
 /// `look`: how Composite is shaded, and Absorption with silhouettes; General: not at all.
-template <TileKind Kind, bool Orthographic, bool ScaleInvariant, bool Peaks, bool Limited, Look look>
+template <TileKind Kind, bool ScaleInvariant, bool Peaks, bool Limited, Look look>
 class TileDrawing {
 public:
     TileDrawing(const TileFrame& frame, int x0, int y0, TileResult& result)
@@ -52,9 +52,9 @@ public:
         for (std::size_t i = 0; i < entries.size(); i += CellBatch::capacity) {
             for (std::size_t k = i + ahead; k < std::min(entries.size(), i + ahead + CellBatch::capacity); ++k)
                 __builtin_prefetch(&frame_.cells[entries[k].cell]);
-            const std::size_t cells = setUpBatch<Orthographic, gradients>(frame_, x0_, y0_, entries.subspan(i), batch_);
+            const std::size_t cells = setUpBatch<gradients>(frame_, x0_, y0_, entries.subspan(i), batch_);
             result_.cellsSetUp += cells;
-            if constexpr (looksAtPeaks) lookAtPeaks<Orthographic>(frame_, batch_, cells, rays_, peakLooks_);
+            if constexpr (looksAtPeaks) lookAtPeaks(frame_, batch_, cells, rays_, peakLooks_);
             for (std::size_t j = 0; j < cells; ++j) drawCell(j);
             if (frame_.earlyTermination && ++sinceCheck == 8) {
                 sinceCheck = 0;
@@ -111,8 +111,9 @@ private:
                 }
                 const double dx = x0_ + x - frame_.centre.x, dy = y0_ + y - frame_.centre.y;
                 px_.rayLength[i] =
-                    Orthographic ? 1.0f
-                                 : static_cast<float>(std::sqrt(1 + frame_.pixel * frame_.pixel * (dx * dx + dy * dy)));
+                    frame_.orthographic
+                        ? 1.0f
+                        : static_cast<float>(std::sqrt(1 + frame_.pixel * frame_.pixel * (dx * dx + dy * dy)));
             }
         if constexpr (looksAtPeaks || look == Look::Lit || look == Look::Lamps) rays_ = inverseRayLengths(px_);
     }
@@ -175,7 +176,9 @@ private:
     template <CellShows shows>
     HWY_INLINE void drawBlock(std::size_t j, std::size_t at, int x, int y, real dx, real dy, real in, real out,
                               std::size_t first, std::size_t last) {
-        if constexpr (Limited) limit(j, at, in, out);
+        if constexpr (Limited) {
+            if (frame_.limits != nullptr) limit(j, at, in, out);
+        }
         if constexpr (cutLayers) {
             if (layered_) {
                 const real end = rhoOfNearness(j, loadAt(limits_.layerEnd + at)), layerOut = max(out, end);
@@ -212,7 +215,7 @@ private:
         const real rayLength = loadAt(px_.rayLength + at);
         block.rayLength = rayLength;
         real across(0.0f);
-        if constexpr (Orthographic) {
+        if (HWY_UNLIKELY(frame_.orthographic)) {
             segments.front = scalarOrthographic(scalar, perX, perY, perRho, dx, dy, in, low, high);
             segments.back = scalarOrthographic(scalar, perX, perY, perRho, dx, dy, out, low, high);
             segments.length = segmentLengthOrthographic(scale, in, out);
@@ -232,8 +235,7 @@ private:
             if constexpr (look == Look::General)
                 integrate(first, last, segments, sink);
             else
-                integrateLooked<shows>(block, scalarFall(across, perRho),
-                                       first, last, segments, sink);
+                integrateLooked<shows>(block, scalarFall(across, perRho), first, last, segments, sink);
             storeAt(sink.r, px_.r + at);
             storeAt(sink.g, px_.g + at);
             storeAt(sink.b, px_.b + at);
@@ -281,16 +283,17 @@ private:
         pixels.fall = fall;
         pixels.rayLength = block.rayLength;
         pixels.inverse = loadAt(px_.inverseLength + block.at);
-        if constexpr (look != Look::Silhouettes && !Orthographic) {
+        if constexpr (look != Look::Silhouettes) {
             const vec3 direction = perDepth(block.x, block.y);
-            pixels.x = direction.x;
-            pixels.y = direction.y;
+            const real sideways(frame_.orthographic ? 0.0f : 1.0f);
+            pixels.x = sideways * direction.x;
+            pixels.y = sideways * direction.y;
         }
         if constexpr (look == Look::Lamps) {
             if (frame_.look.places) pixels.place = middlePlace(block);
         }
-        LookedSegments<look, Orthographic, ScaleInvariant, Peaks, shows>{frame_, peakLooks_, look_, pixels, segments}
-            .add(first, last, sink);
+        LookedSegments<look, ScaleInvariant, Peaks, shows>{frame_, peakLooks_, look_, pixels, segments}.add(first, last,
+                                                                                                            sink);
     }
 
     HWY_INLINE void drawShaded(const Block& block, real t, std::size_t first, std::size_t last,
@@ -322,9 +325,9 @@ private:
 
     HWY_INLINE ShadedSegment shade(const Block& block, const SegmentSink& sink, const Segments& segments) {
         vec3 towards(real(0.0f), real(0.0f), real(1.0f));
-        if constexpr (!Orthographic) towards = reciprocal(block.rayLength) * perDepth(block.x, block.y);
+        if (!frame_.orthographic) towards = reciprocal(block.rayLength) * perDepth(block.x, block.y);
         const auto middles = [&]() HWY_ATTR {
-            return segmentMiddles<Orthographic>(block.dx, block.dy, block.in, block.out);
+            return segmentMiddles(block.dx, block.dy, block.in, block.out, frame_.orthographic);
         };
         const auto place = [&]() HWY_ATTR { return middlePlace(block); };
         ShadedSegment shaded = shadeAs(block, sink, segments, towards, middles, place);
@@ -337,7 +340,7 @@ private:
     HWY_INLINE ShadedSegment shadeAs(const Block& block, const SegmentSink& sink, const Segments& segments,
                                      vec3 towards, const Middles& middles, const Place& place) {
         const std::size_t j = block.j;
-        const real fall = cellFall<Orthographic>(batch_, block.j, block.dx, block.dy);
+        const real fall = cellFall(batch_, block.j, block.dx, block.dy, frame_.orthographic);
         if constexpr (Limited) {
             const vec3 normal(loadAt(limits_.normal[0] + block.at), loadAt(limits_.normal[1] + block.at),
                               loadAt(limits_.normal[2] + block.at));
@@ -354,7 +357,7 @@ private:
     /// however far the eye is.
     HWY_INLINE real depthBeyond(std::size_t j, real rho) const {
         const real nearness = real(batch_.nearness[j]) + real(batch_.nearnessPerRho[j]) * rho;
-        if constexpr (Orthographic) return -nearness;
+        if (frame_.orthographic) return -nearness;
         return real(-frame_.depthReference) * nearness * reciprocal(real(1.0f) + nearness);
     }
     HWY_INLINE real middleBeyond(const Block& block) const {
@@ -363,7 +366,7 @@ private:
 
     /// The distance along rays at a depth that is `beyond` the reference's, less the reference's own depth.
     HWY_INLINE real distanceBeyond(int x, int y, real beyond, real rayLength) const {
-        if constexpr (Orthographic) return beyond;
+        if (frame_.orthographic) return beyond;
         const vec3 ray = perDepth(x, y);
         const real square = ray.x * ray.x + ray.y * ray.y;
         return beyond * rayLength + real(frame_.depthReference) * square * reciprocal(real(1.0f) + rayLength);
@@ -374,7 +377,7 @@ private:
     HWY_INLINE vec3 middlePlace(const Block& block) const {
         const real beyond = middleBeyond(block);
         const vec3 ray = perDepth(block.x, block.y);
-        if constexpr (Orthographic) return {ray.x, ray.y, beyond};
+        if (frame_.orthographic) return {ray.x, ray.y, beyond};
         const real depth = real(frame_.depthReference) + beyond;
         return {depth * ray.x, depth * ray.y, beyond};
     }
@@ -396,8 +399,8 @@ private:
         in = min(in, rhoOfNearness(j, loadAt(limits_.nearest + at)));
     }
 
-    HWY_INLINE ClassifiedSegments<Orthographic> classified(const Block& block, std::size_t first, std::size_t last,
-                                                           const Segments& segments, real scale) const {
+    HWY_INLINE ClassifiedSegments classified(const Block& block, std::size_t first, std::size_t last,
+                                             const Segments& segments, real scale) const {
         return {frame_, batch_, block, first, last, segments, scale};
     }
 
@@ -423,8 +426,7 @@ private:
     HWY_INLINE void drawAdditive(const Block& block, real t, std::size_t first, std::size_t last,
                                  const Segments& segments) {
         const std::size_t at = block.at;
-        const EmissionSink sink =
-            classified(block, first, last, segments, loadAt(limits_.scale + block.at)).emission();
+        const EmissionSink sink = classified(block, first, last, segments, loadAt(limits_.scale + block.at)).emission();
         real r = sink.r, g = sink.g, b = sink.b, depth = sink.smoothDepth + sink.otherDepth;
         if (frame_.shading->needsGradient()) {
             SegmentSink whole;
@@ -452,8 +454,7 @@ private:
         const std::size_t at = block.at;
         const FirstShown shown = firstShown(*frame_.transfer, first, last, segments);
         if (none(shown.shown)) return;
-        const real begin =
-            distanceBeyond(block.x, block.y, depthBeyond(block.j, block.in), block.rayLength);
+        const real begin = distanceBeyond(block.x, block.y, depthBeyond(block.j, block.in), block.rayLength);
         const real step = segments.back - segments.front;
         const real share = select(abs(step) > real(0.0f), (shown.scalar - segments.front) / step, real(0.0f));
         const real distance = begin + clamp(share, real(0.0f), real(1.0f)) * segments.length;
@@ -497,11 +498,10 @@ private:
     std::conditional_t<Limited, LimitBuffers<tilePixels>, NoLimits> limits_;
 };
 
-template <TileKind Kind, bool Orthographic, bool ScaleInvariant, bool Peaks, bool Limited = false,
-          Look look = Look::General>
+template <TileKind Kind, bool ScaleInvariant, bool Peaks, bool Limited = false, Look look = Look::General>
 void drawTileAs(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
                 TileResult& result) {
-    TileDrawing<Kind, Orthographic, ScaleInvariant, Peaks, Limited, look> drawing(frame, x0, y0, result);
+    TileDrawing<Kind, ScaleInvariant, Peaks, Limited, look> drawing(frame, x0, y0, result);
     drawing.draw(entries);
     drawing.resolve(image);
 }

@@ -43,7 +43,7 @@ vec3 vectorAt(int place) { return vec3(attributeAt(place), attributeAt(place + 1
 vec4 smoothNormal() {
     vec3 smoothed = vectorAt(TETRALUX_NORMAL_AT);
     float square = dot(smoothed, smoothed);
-    return square > 1e-30 ? vec4(smoothed * inversesqrt(square), 1.0) : vec4(0.0);
+    return square > 1e-30 ? vec4(smoothed * inversesqrt(square), sqrt(square)) : vec4(0.0);
 }
 #endif
 

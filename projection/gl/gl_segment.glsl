@@ -80,22 +80,25 @@ vec4 shadedSegment(float front, float back, float len, float fallSide, vec3 view
 #endif
     float depth = segment.smoothDepth + segment.otherDepth;
     float plain = depth;
+#if TETRALUX_SILHOUETTE
 #if TETRALUX_SMOOTH_SILHOUETTE
-    vec4 smoothed = smoothNormal();
-    depth = silhouetteDepth(0.0, depth, smoothed.w > 0.0 ? dot(smoothed.xyz, view) : 1.0);
-#elif TETRALUX_SILHOUETTE
-    float cosine = dot(gradient.xyz, view);
+    vec4 slope = smoothNormal();
+    float cosine = slope.w > 0.0 ? dot(slope.xyz, view) : 1.0;
+#else
+    vec4 slope = gradient;
+    float cosine = dot(slope.xyz, view);
+#endif
 #if TETRALUX_DATA_SPACE
 #if TETRALUX_SCALE_INVARIANT
     float perScalar = segment.meanExtinction;
 #else
     float perScalar = segment.smoothDepth / dataPath(front, back);
 #endif
-    float sharpened = silhouetteDepth(perScalar * gradient.w * len, segment.otherDepth, cosine);
+    float sharpened = silhouetteDepth(perScalar * slope.w * len, segment.otherDepth, cosine);
 #else
     float sharpened = silhouetteDepth(0.0, depth, cosine);
 #endif
-    depth = gradient.w > 0.0 ? sharpened : depth;
+    depth = gradient.w > 0.0 || TETRALUX_SMOOTH_SILHOUETTE != 0 ? sharpened : depth;
 #endif
 #if TETRALUX_GRADIENT_OPACITY
     float byGradient = gradientOpacity * gradient.w;  // Kraus 2005, Equation 18

@@ -282,6 +282,21 @@ bool showsLight(const RenderSettings& settings) {
     }
 }
 
+/// Size of the gradient that a silhouette follows, of the cell or smoothed, and the cosine between it and `direction`;
+/// 1 where it is 0.
+struct SilhouetteSlope {
+    double steepness, cosine;
+};
+SilhouetteSlope silhouetteSlope(const Scene& scene, mesh::CellIndex cell, const mesh::CellSlope& slope,
+                                const glm::dvec3& middle, const glm::dvec3& direction) {
+    if (!scene.settings.shading.smoothSilhouettes()) return {slope.magnitude, glm::dot(slope.normal, direction)};
+    const glm::dvec3 gradient = smoothGradient(scene, cell, middle);
+    const double size = glm::length(gradient);
+    const mesh::ScalarMesh& mesh = *scene.mesh;
+    return {size * (mesh.scalarMax - mesh.scalarMin) / mesh.bounds.diagonal(),
+            size > 0 ? glm::dot(gradient, direction) / size : 1.0};
+}
+
 Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& ray, const RaySegment& segment,
              const glm::dvec3& cutNormal, const DepthRange& depths, double scale) {
     const auto& shading = scene.settings.shading;
@@ -299,17 +314,13 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
     const auto& [normal, magnitude] = slope;
     const double variation = std::abs(segment.scalarOut - segment.scalarIn);
     const bool enhanced = shading.silhouette && (shading.smoothSilhouettes() || slope.any());
-    if (shading.smoothSilhouettes()) {
-        const glm::dvec3 gradient = smoothGradient(scene, segment.cell, middle);
-        const double size = glm::length(gradient);
-        depth = glsl::silhouetteDepth(0.0, depth, size > 0 ? glm::dot(gradient, ray.direction) / size : 1.0);
-    } else if (enhanced) {
-        const double cosine = glm::dot(normal, ray.direction);
+    if (enhanced) {
+        const auto [steepness, cosine] = silhouetteSlope(scene, segment.cell, slope, middle, ray.direction);
         double smoothTimesK = 0.0, other = depth;
         if (integral == preint::Integral::ScaleInvariant && !scene.settings.contributions.perCell) {
             const double meanExtinction =
                 variation > 0 ? smooth / variation : exact.function().extinctionAt(segment.scalarIn);
-            smoothTimesK = meanExtinction * magnitude * length;
+            smoothTimesK = meanExtinction * steepness * length;
             other = std::isinf(depth) ? depth : std::max(0.0, depth - smooth);
             if (variation == 0) meanColor = exact.function().colorAt(segment.scalarIn);
         }

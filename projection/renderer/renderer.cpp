@@ -147,7 +147,7 @@ struct Renderer::State {
     Tier made = Tier::Nothing;
     std::shared_ptr<const mesh::ScalarMesh> drawn;
     std::uint64_t withoutScalar = 0;
-    std::optional<mesh::VolumeSamples> samples;  ///< of `drawn`, once a function asked for them
+    std::optional<mesh::VolumeSamples> volumeSamples;  ///< of `drawn`, once a function asked for them
     std::shared_ptr<projection::FrameMemory> memory = std::make_shared<projection::FrameMemory>();
     projection::Scene scene;
     std::unique_ptr<projection::Engine> engine;
@@ -181,7 +181,7 @@ void Renderer::State::make() {
 
 void Renderer::State::makeField() {
     engine.reset();  // what it leaves behind the next one takes
-    samples.reset();
+    volumeSamples.reset();
     drawn = renderer::scalarMesh(mesh->data(), *field, withoutScalar);
     made = Tier::Field;
 }
@@ -200,8 +200,8 @@ void Renderer::State::makeAppearance() {
     use.mode = next.settings.mode;
     const preint::TransferFunction chosen =
         function ? function->data().function : projection::defaultTransferFunction();
-    if (chosen.extinctionSuggested && !samples) samples = mesh::sampleVolume(*drawn);
-    if (samples) use.samples = &*samples;
+    if (chosen.extinctionSuggested && !volumeSamples) volumeSamples = mesh::sampleVolume(*drawn);
+    if (volumeSamples) use.samples = &*volumeSamples;
     next.transferFunction = projection::resolvedFor(chosen, *drawn, use);
     const bool allCells = drawn->cells.size() == mesh->data().cells.size();
     next.meshMemo = allCells ? mesh->data().memo : nullptr;  // without some cells it is another mesh

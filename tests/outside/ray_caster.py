@@ -213,7 +213,10 @@ def pixel(cells, camera, tf, mode, look, x, y, size):
             size_of_gradient = math.sqrt(dot(gradient, gradient))
         slope = dot(gradient, d)
         if look["silhouette"] and slope != 0:
-            enhanced = 1 - (1 - opacity) ** (size_of_gradient / abs(slope))
+            k = size_of_gradient / abs(slope)
+            if mode == "scale-invariant" and front != back:  # the depth as that of a segment with this gradient
+                depth *= abs(slope) * (leave - enter) / abs(back - front)
+            enhanced = 1 - math.exp(-k * depth) * through**k
             emitted = [c * enhanced / opacity for c in emitted]
             opacity = enhanced
         if look["lights"]:

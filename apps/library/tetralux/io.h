@@ -20,6 +20,7 @@
 
 namespace tetralux {
 
+/// How a file is read.
 struct ReadOptions {
     std::optional<double> time;            ///< of a series: the step nearest to it; the first step when not given
     int subdivision = 0;                   ///< pieces along each edge of a curved cell; 0: as many as its order
@@ -33,23 +34,23 @@ struct ReadOptions {
 /// A field of a file, with values for each point or tetrahedron of the file's mesh. Values are shared, not copied.
 class MeshField {
 public:
-    const std::string& name() const { return name_; }
-    bool isOnPoints() const { return onPoints_; }
-    int components() const { return components_; }
+    const std::string& name() const { return name_; }  ///< as the file has it
+    bool isOnPoints() const { return onPoints_; }      ///< else on cells
+    int components() const { return components_; }     ///< 1: a scalar
     /// Names that the file gives its components ("xx", "xy", …), as many as there are, or none.
     const std::vector<std::string>& componentNames() const;
     bool isBookkeeping() const;  ///< numbers of points, cells or blocks: nobody wants to see them unasked
     /// `components()` numbers for each point or tetrahedron, as long as this field or a copy of it lives.
     std::span<const double> values() const;
     double minimum() const { return minimum_; }  ///< of the scalar, of a vector its magnitude, over finite values
-    double maximum() const { return maximum_; }
+    double maximum() const { return maximum_; }  ///< likewise
 
     Field field() const;  ///< the scalar, or the vector's magnitude
     /// One component, from 0. \throws Error (BadInput) if there is none such.
     Field component(int index) const;
 
-    struct Data;  ///< the library's own
-    explicit MeshField(std::shared_ptr<const Data> data);
+    struct Data;                                           ///< the library's own
+    explicit MeshField(std::shared_ptr<const Data> data);  ///< the library's own
 
 private:
     Field made(std::vector<double> values) const;
@@ -61,11 +62,12 @@ private:
     double minimum_ = 0, maximum_ = 0;
 };
 
+/// What a file holds.
 struct MeshFile {
-    std::shared_ptr<const Mesh> mesh;
-    std::vector<MeshField> fields;
-    std::vector<double> times;  ///< of all steps, if the source is a series; the mesh is that of one
-    MeshReport report;          ///< what checking found
+    std::shared_ptr<const Mesh> mesh;  ///< checked
+    std::vector<MeshField> fields;     ///< all that the file has
+    std::vector<double> times;         ///< of all steps, if the source is a series; the mesh is that of one
+    MeshReport report;                 ///< what checking found
 
     /// \throws Error (BadInput) listing the names that there are.
     const MeshField& field(std::string_view name) const;

@@ -56,72 +56,86 @@ public:
 
     static std::vector<std::string> presets();    ///< the names that are asked for most
     static std::vector<std::string> colorMaps();  ///< all of matplotlib's and ParaView's
-    static std::vector<std::string> opacities();
+    static std::vector<std::string> opacities();  ///< words for opacity
 
     struct Data;  ///< the library's own
+    /// The library's own.
     explicit TransferFunction(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
-    const Data& data() const { return *data_; }
+    const Data& data() const { return *data_; }  ///< the library's own
 
 private:
     std::shared_ptr<const Data> data_;
 };
 
+/// What a picture shows of the scalars along a ray.
 enum class Mode {
-    Standard,        ///< opacity per length
-    ScaleInvariant,  ///< opacity per change of the scalar (Kraus 2005)
-    Mip,             ///< largest scalar along the ray
-    Minimum,
-    Average,  ///< length-weighted mean of the scalar
-    Additive,
-    AdditiveScaleInvariant,
-    Emission,
-    Absorption,
-    FirstHit,
-    Depth
+    Standard,                ///< opacity per length
+    ScaleInvariant,          ///< opacity per change of the scalar (Kraus 2005)
+    Mip,                     ///< colour of the largest scalar
+    Minimum,                 ///< of the smallest
+    Average,                 ///< of the length-weighted mean of the scalar
+    Additive,                ///< light of all segments, hidden by nothing; alpha min(1, ∫ τ dt)
+    AdditiveScaleInvariant,  ///< likewise, per change of the scalar
+    Emission,                ///< likewise with alpha 0 (Max 1995)
+    Absorption,              ///< black, alpha 1 − exp(−∫ τ dt): a radiograph over its background (Max 1995)
+    FirstHit,                ///< colour of the first segment with opacity, opaque
+    Depth                    ///< grey: distance to where anything first shows
 };
 
+/// What becomes of thin layers that are seen edge-on: they become denser, or not.
 enum class Silhouettes {
-    None,
+    None,        ///< no denser than elsewhere
     Exact,       ///< Kraus 2005, Equations 15 and 17
     Approximate  ///< Equation 16
 };
 
+/// A light without a place, at a place, or at the eye. At the distance d (mesh units) there is left of it
+/// color/(attenuation[0] + attenuation[1]·d + attenuation[2]·d²); Directional lights do not fade.
 struct Light {
-    enum class Kind { Directional, Point, Head } kind = Kind::Directional;
-    Vector direction{0, 0, 1};    ///< Directional: towards the light, any length
-    Vector position{};            ///< Point: mesh units
-    Vector color{1, 1, 1};        ///< times intensity
-    Vector attenuation{1, 0, 0};  ///< constant, per mesh unit, per mesh unit squared
+    /// Where it is.
+    enum class Kind {
+        Directional,  ///< infinitely far away
+        Point,        ///< at `position`
+        Head          ///< at the eye (orthographic: behind every pixel)
+    };
+    Kind kind = Kind::Directional;  ///< which of the members below count
+    Vector direction{0, 0, 1};      ///< Directional: towards the light, any length
+    Vector position{};              ///< Point: mesh units
+    Vector color{1, 1, 1};          ///< times intensity
+    Vector attenuation{1, 0, 0};    ///< constant, per mesh unit, per mesh unit squared
 };
 
 /// Kraus 2005, Equation 19: one term per light. Without lights colours are emitted as they are.
 struct Lighting {
-    std::vector<Light> lights;
-    double ambient = 0.1;
+    std::vector<Light> lights;   ///< none: colours as they are
+    double ambient = 0.1;        ///< intensity of ambient light
     double exponent = 32.0;      ///< of the highlight
     bool transmission = true;    ///< light that comes through
     bool smoothNormals = false;  ///< gradients fitted at the vertices instead of each cell's own
-    bool shadows = false;
+    bool shadows = false;        ///< volume and surfaces cast shadows
 };
 
+/// A plane through a point, in mesh units.
 struct Plane {
-    Vector point{}, normal{0, 0, 1};
+    Vector point{};          ///< on the plane
+    Vector normal{0, 0, 1};  ///< any length
 };
 
 /// Shows only the side towards which the normal points.
 using Cut = Plane;
 
+/// The mesh on a plane, in the colours of the scalar.
 struct Slice {
-    Plane plane;
-    double opacity = 1.0;
+    Plane plane;           ///< its normal may point either way
+    double opacity = 1.0;  ///< 0 … 1; below 1 what lies behind shows through
 };
 
 /// Opaque triangles in the volume, in one colour; lit by the renderer's lights unless `flat`.
 struct Surface {
-    std::vector<Vector> points;
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    Vector color{0.8, 0.8, 0.8};
-    bool flat = false;
+    std::vector<Vector> points;                           ///< mesh units
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< three numbers of points each
+    Vector color{0.8, 0.8, 0.8};                          ///< display RGB
+    bool flat = false;                                    ///< in that colour, without light
 };
 
 }  // namespace tetralux

@@ -13,9 +13,11 @@
 
 namespace tetralux {
 
+/// An axis-aligned box.
 struct BoundingBox {
-    std::array<double, 3> low{}, high{};  ///< mesh units
-    double diagonal() const;
+    std::array<double, 3> low{};   ///< mesh units
+    std::array<double, 3> high{};  ///< mesh units
+    double diagonal() const;       ///< its length, mesh units
 };
 
 /// What checking found. Nothing in it is an error: what is counted was left out or mended, and the rest is drawn.
@@ -35,6 +37,7 @@ public:
     /// counted in `report`. \throws Error (BadInput) if the arrays do not fit together or nothing is left to draw.
     static std::shared_ptr<const Mesh> fromTetrahedra(std::span<const double> xyz, std::span<const std::uint32_t> cells,
                                                       MeshReport* report = nullptr);
+    /// The same with float points.
     static std::shared_ptr<const Mesh> fromTetrahedra(std::span<const float> xyz, std::span<const std::uint32_t> cells,
                                                       MeshReport* report = nullptr);
 
@@ -54,13 +57,14 @@ public:
                                                  MeshReport* report = nullptr,
                                                  std::span<const std::int64_t> faceOffsets = {},
                                                  std::span<const std::int64_t> faceStream = {});
-    /// The same with float points or 32-bit numbers; what does not fit is converted.
+    /// The same with float points, which are converted.
     static std::shared_ptr<const Mesh> fromCells(std::span<const float> xyz, std::span<const std::uint8_t> types,
                                                  std::span<const std::int64_t> offsets,
                                                  std::span<const std::int64_t> connectivity,
                                                  MeshReport* report = nullptr,
                                                  std::span<const std::int64_t> faceOffsets = {},
                                                  std::span<const std::int64_t> faceStream = {});
+    /// The same with 32-bit numbers.
     static std::shared_ptr<const Mesh> fromCells(std::span<const double> xyz, std::span<const std::uint8_t> types,
                                                  std::span<const std::int32_t> offsets,
                                                  std::span<const std::int32_t> connectivity,
@@ -80,9 +84,9 @@ public:
     std::size_t points() const;  ///< of the arrays that it was made of: as many values has a field on points
     std::size_t cells() const;   ///< likewise, and a field on cells
 
-    struct Data;  ///< the library's own
-    explicit Mesh(std::unique_ptr<Data> data);
-    const Data& data() const { return *data_; }
+    struct Data;                                 ///< the library's own
+    explicit Mesh(std::unique_ptr<Data> data);   ///< the library's own
+    const Data& data() const { return *data_; }  ///< the library's own
 
 private:
     std::unique_ptr<Data> data_;
@@ -93,16 +97,17 @@ private:
 class Field {
 public:
     static Field onPoints(std::span<const double> values);  ///< linear within each tetrahedron; values are copied
-    static Field onPoints(std::span<const float> values);
-    static Field onCells(std::span<const double> values);  ///< constant within each cell
-    static Field onCells(std::span<const float> values);
+    static Field onPoints(std::span<const float> values);   ///< likewise
+    static Field onCells(std::span<const double> values);   ///< constant within each cell
+    static Field onCells(std::span<const float> values);    ///< likewise
     /// Without a copy: `values` must not change while `owner` lives, which the field keeps alive.
     static Field borrowOnPoints(std::span<const double> values, std::shared_ptr<const void> owner);
+    /// Likewise.
     static Field borrowOnCells(std::span<const double> values, std::shared_ptr<const void> owner);
 
-    bool isOnPoints() const { return onPoints_; }
-    std::span<const double> values() const { return values_; }
-    const std::shared_ptr<const void>& owner() const { return owner_; }
+    bool isOnPoints() const { return onPoints_; }                        ///< else on cells
+    std::span<const double> values() const { return values_; }           ///< one for each
+    const std::shared_ptr<const void>& owner() const { return owner_; }  ///< what keeps the values alive
 
 private:
     Field(bool onPoints, std::span<const double> values, std::shared_ptr<const void> owner);

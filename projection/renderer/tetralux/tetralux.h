@@ -36,7 +36,9 @@ namespace tetralux {
 /// Right-handed; the picture's size comes with the ImageView. Pixel (x, y), row 0 at the top, is seen by the ray
 /// through its centre. Only what lies before the eye (orthographic: before the plane through it) is seen.
 struct Camera {
-    Vector eye{0, 0, 1}, target{0, 0, 0}, up{0, 1, 0};
+    Vector eye{0, 0, 1};            ///< where from, mesh units
+    Vector target{0, 0, 0};         ///< where to: the middle of the picture unless windowCentre says otherwise
+    Vector up{0, 1, 0};             ///< what is up; any length, not along the view
     double fovDegrees = 30;         ///< vertical
     double orthographicHeight = 0;  ///< > 0: orthographic, so many mesh units over the picture's height
     /// Where the picture's middle lies beside the optical axis, in half widths to the right and half heights up, as
@@ -50,21 +52,27 @@ Camera cameraHolding(const BoundingBox& bounds, int width, int height, const Cam
 
 /// The caller's memory: linear RGBA, premultiplied by alpha, over nothing; the top row first.
 struct ImageView {
-    float* rgba = nullptr;
-    int width = 0, height = 0;
+    float* rgba = nullptr;            ///< the top row's first pixel
+    int width = 0;                    ///< pixels
+    int height = 0;                   ///< pixels
     std::ptrdiff_t floatsPerRow = 0;  ///< 0: 4 · width
 };
 
 /// Which part of a larger picture the ImageView is: its left upper pixel, and the size of the whole. 0: all of it.
 struct ImageTile {
-    int left = 0, top = 0, wholeWidth = 0, wholeHeight = 0;
+    int left = 0;         ///< of its first pixel in the whole
+    int top = 0;          ///< of its first row in the whole
+    int wholeWidth = 0;   ///< pixels of the whole picture
+    int wholeHeight = 0;  ///< pixels of the whole picture
 };
 
 /// Only what lies within the box is drawn, every ray cut at it exactly. An empty box (low ≥ high): everything.
 struct ClipBox {
-    Vector low{}, high{};
+    Vector low{};   ///< mesh units
+    Vector high{};  ///< mesh units
 };
 
+/// What a caller asks of one frame.
 struct Control {
     std::stop_token stop;                  ///< a frame ends within some 20 ms of the request
     std::function<void(double)> progress;  ///< share done, 0 … 1; called by the thread that renders
@@ -72,43 +80,50 @@ struct Control {
     /// width × height of the ImageView, top row first: the volume ends at this distance along the ray from the eye
     /// (orthographic: from the eye's plane), mesh units; infinite where nothing stands. Opaque geometry of the host.
     const float* depthLimit = nullptr;
-    ImageTile tile{};
-    ClipBox region{};
+    ImageTile tile{};  ///< a part of the picture
+    ClipBox region{};  ///< a part of space
 };
 
+/// What one frame did.
 struct FrameResult {
-    bool complete = false;  ///< false: it was stopped, and the picture is transparent
-    double milliseconds = 0;
-    std::uint64_t cellsDrawn = 0;
+    bool complete = false;                              ///< false: it was stopped, and the picture is transparent
+    double milliseconds = 0;                            ///< wall time, what had to be made anew included
+    std::uint64_t cellsDrawn = 0;                       ///< tetrahedra
     std::map<std::string, std::uint64_t> cellsSkipped;  ///< by reason
     std::uint64_t pixelsRepaired = 0;                   ///< composed by the exact reference
     std::uint64_t pixelsWrong = 0;                      ///< that nothing vouches for and nothing repaired
-    std::map<std::string, double> stageMilliseconds;
-    int drawnWidth = 0, drawnHeight = 0;  ///< less than the picture's where a budget asked for it
+    std::map<std::string, double> stageMilliseconds;    ///< wall time by stage
+    int drawnWidth = 0;                                 ///< less than the picture's where a budget asked for it
+    int drawnHeight = 0;                                ///< likewise
 };
 
 /// How far a picture is from the exact one, by pixels computed again in double precision.
 struct Verification {
-    std::size_t pixels = 0;
-    double rmse = 0, rmseBound = 0;  ///< over RGBA; the bound is a 95 % one
-    double max = 0;
+    std::size_t pixels = 0;  ///< so many were computed again
+    double rmse = 0;         ///< over RGBA of these
+    double rmseBound = 0;    ///< of the whole picture, with 95 % confidence
+    double max = 0;          ///< largest difference of a channel among these
     double unseenShare = 0;  ///< with 95 % confidence no more than this share of the pixels differs by more than max
 };
 
 /// What one ray meets, nearest first.
 struct PixelProbe {
+    /// The part of the ray within one tetrahedron.
     struct Segment {
-        double begin, end;              ///< distance from the eye (orthographic: its plane), mesh units
-        double scalarBegin, scalarEnd;  ///< there
-        double alpha;                   ///< of the segment alone
+        double begin;        ///< distance from the eye (orthographic: its plane), mesh units
+        double end;          ///< likewise
+        double scalarBegin;  ///< there
+        double scalarEnd;    ///< there
+        double alpha;        ///< of the segment alone
     };
-    std::vector<Segment> segments;
-    bool hit = false;     ///< whether anything shows; what follows is of where it first does
-    double distance = 0;  ///< from the eye
-    Vector position{};
-    double scalar = 0;
+    std::vector<Segment> segments;  ///< nearest first
+    bool hit = false;               ///< whether anything shows; what follows is of where it first does
+    double distance = 0;            ///< from the eye
+    Vector position{};              ///< mesh units
+    double scalar = 0;              ///< there
 };
 
+/// Which engine draws, with what.
 struct RendererOptions {
     std::string engine = "auto";   ///< a name of engines(), or auto
     std::string context = "auto";  ///< of OpenGL: auto, egl, osmesa
@@ -122,27 +137,30 @@ struct RendererOptions {
 /// render() makes what it needs. \throws Error from every member.
 class Renderer {
 public:
+    /// Makes nothing yet. \throws Error (BadInput) without a mesh, or for an engine that there is not.
     explicit Renderer(std::shared_ptr<const Mesh> mesh, RendererOptions options = {});
     ~Renderer();
-    Renderer(Renderer&&) noexcept;
-    Renderer& operator=(Renderer&&) noexcept;
+    Renderer(Renderer&&) noexcept;             ///< what was moved from may only be assigned to or destroyed
+    Renderer& operator=(Renderer&&) noexcept;  ///< likewise
 
     void setField(Field field);  ///< needed before the first frame
     /// Nothing: one that shows the mesh, whatever it is.
     void setTransferFunction(std::optional<TransferFunction> function);
-    void setMode(Mode mode);
-    void setLighting(Lighting lighting);
+    void setMode(Mode mode);          ///< Mode::Standard without
+    void setLighting(Lighting lighting);  ///< none without
     /// The same by a JSON document, which can say more: materials, reflectance, fibres, soft shadows (README, lights).
     void setLighting(std::string_view document);
-    void setSilhouettes(Silhouettes silhouettes);
+    void setSilhouettes(Silhouettes silhouettes);  ///< Silhouettes::None without
     /// What lies within `layer` behind a cut (mesh units; 1/200 of the mesh's diagonal where nothing is said) is lit by
     /// the cut's normal.
     void setCuts(std::vector<Cut> cuts, std::optional<double> layer = {});
-    void setSlices(std::vector<Slice> slices);
-    void setSurfaces(std::vector<Surface> surfaces);
+    void setSlices(std::vector<Slice> slices);        ///< in the place of those there were
+    void setSurfaces(std::vector<Surface> surfaces);  ///< in the place of those there were
     /// Anti-aliasing: the mean of at least so many rays a pixel, 1 to 64, on a regular grid.
     void setSamples(int samples);
 
+    /// Draws into `image`, all of whose pixels are written. What was set since the last frame is made first. A frame
+    /// that is stopped leaves the picture transparent, and the next one goes on as if it had not been.
     FrameResult render(const Camera& camera, ImageView image, const Control& control = {});
 
     /// Computes `pixels` pixels of the picture again, which must be what render() made last with this camera.
@@ -159,10 +177,11 @@ private:
     std::unique_ptr<State> state_;
 };
 
+/// An engine of this build.
 struct EngineInfo {
-    std::string name;
-    bool available = false;
-    std::string whyNot;  ///< where it is not
+    std::string name;        ///< for RendererOptions::engine
+    bool available = false;  ///< whether this machine can run it
+    std::string whyNot;      ///< where it is not
 };
 
 /// The engines of this build, and whether this machine can run them.

@@ -51,7 +51,7 @@ SCENES = {
     ),
     "a list of opacities": (
         {"cmap": "Turbo_r", "opacity": [0, 0.3, 0.1]},
-        "--tf turbo_r --opacity 0,0.3,0.1".split(),
+        ["--tf", "OPACITIES"],
     ),
     "logarithm": ({"cmap": "inferno", "log_scale": True, "clim": (0.01, 1)}, "--tf inferno --log --range 0.01,1".split()),
     "range alone": ({"clim": (0.2, 0.6)}, ["--range", "0.2,0.6"]),
@@ -67,7 +67,10 @@ def test_equals_the_program_to_the_bit(scene, bucky, drawn_by_program, tmp_path)
     options, arguments = SCENES[scene]
     file = tmp_path / "function.json"
     file.write_text(json.dumps(FUNCTION))
-    arguments = [str(file) if each == "FUNCTION" else each for each in arguments]
+    opacities = tmp_path / "opacities.json"
+    opacities.write_text('{"colorMap": "turbo_r", "opacity": [[0, 0], [0.5, 0.3], [1, 0.1]]}')
+    files = {"FUNCTION": str(file), "OPACITIES": str(opacities)}
+    arguments = [files.get(each, each) for each in arguments]
     size = (60, 45) if scene == "reference" else SIZE
     drawn = drawn_by_program("bucky:16", "--size", f"{size[0]}x{size[1]}", *arguments)
     image = tetralux.render(bucky, size=size, **options)

@@ -149,6 +149,21 @@ def test_colour_maps_of_matplotlib_and_lists(bucky):
         tetralux.render(bucky, transfer_function=FUNCTION, cmap="viridis", size=SIZE)
 
 
+def test_views_by_name_and_zoom(bucky):
+    def seen(**view):
+        return tetralux.render(bucky, "x", size=(60, 60), transfer_function="grayscale", **view).rgba
+
+    right, top = seen(view="yz"), seen(view="xy")
+    side = seen(view="xz")
+    # x grows to the right when seen along z or y, and towards the eye along x
+    assert top[20:40, 38:44, 0].mean() > 1.5 * top[20:40, 16:22, 0].mean()
+    assert side[20:40, 38:44, 0].mean() > 1.5 * side[20:40, 16:22, 0].mean()
+    np.testing.assert_allclose(right[20:40, 20:40].mean(axis=1), right[20:40, 20:40][::-1].mean(axis=1), atol=0.05)
+    assert not np.array_equal(seen(view="iso"), seen())
+    assert (seen(view="xy", zoom=1.5)[..., 3] > 0).sum() > 1.3 * (top[..., 3] > 0).sum()
+    assert (seen(view="xy", height=4, zoom=2)[..., 3] > 0).sum() > 2 * (seen(view="xy", height=4)[..., 3] > 0).sum()
+
+
 def test_verify_and_probe(bucky):
     renderer = tetralux.Renderer(bucky, size=SIZE)
     with pytest.raises(ValueError, match="render one first"):

@@ -70,6 +70,8 @@ class Renderer:
         up: Optional[Sequence[float]] = None,
         fov: float = 30.0,
         height: Optional[float] = None,
+        view: Optional[str] = None,
+        zoom: float = 1.0,
         silhouette: Any = False,
         lights: Any = None,
         samples: int = 1,
@@ -107,6 +109,7 @@ class Renderer:
         self.size = size
         self.eye, self.target, self.up = eye, target, up
         self.fov, self.height = fov, height
+        self.view, self.zoom = view, zoom
 
     @property
     def mesh(self) -> Any:
@@ -170,6 +173,8 @@ class Renderer:
         up: Any = _UNSET,
         fov: Any = _UNSET,
         height: Any = _UNSET,
+        view: Any = _UNSET,
+        zoom: Any = _UNSET,
         window_center: tuple[float, float] = (0.0, 0.0),
         progress: Optional[Callable[[float], Any]] = None,
         budget: float = 0.0,
@@ -179,7 +184,7 @@ class Renderer:
 
         Parameters
         ----------
-        size, eye, target, up, fov, height
+        size, eye, target, up, fov, height, view, zoom
             As at `tetralux.render`; where not given, the renderer's own.
         window_center : (float, float)
             Where the picture's middle lies beside the optical axis: half widths to the right, half heights up.
@@ -199,15 +204,17 @@ class Renderer:
         with self._lock:
             self._update()
             width, rows = size_of(self.size if size is _UNSET else size)
-            view = View(
+            seen = View(
                 self.eye if eye is _UNSET else eye,
                 self.target if target is _UNSET else target,
                 self.up if up is _UNSET else up,
                 self.fov if fov is _UNSET else fov,
                 self.height if height is _UNSET else height,
                 window_center,
+                self.view if view is _UNSET else view,
+                self.zoom if zoom is _UNSET else zoom,
             )
-            camera = view.camera(self._mesh, (width, rows))
+            camera = seen.camera(self._mesh, (width, rows))
             background = self._background()
             rgba = np.empty((rows, width, 4), np.float32)
             report = self._core.render(rgba, camera, progress, float(budget), _depth(depth_limit, rows, width))
@@ -316,6 +323,8 @@ def render(
     up: Optional[Sequence[float]] = None,
     fov: float = 30.0,
     height: Optional[float] = None,
+    view: Optional[str] = None,
+    zoom: float = 1.0,
     silhouette: Any = False,
     lights: Any = None,
     samples: int = 1,
@@ -361,6 +370,10 @@ def render(
         Vertical field of view.
     height : float, mesh units, optional
         Makes the view orthographic: so much over the picture's height.
+    view : "xy", "yx", "xz", "zx", "yz", "zy" or "iso", optional
+        The mesh from that side, as in PyVista, where no eye is given.
+    zoom : float, default 1
+        Above 1: nearer, by a smaller field of view (or height).
     silhouette : bool or "approximate", default False
         Layers seen edge-on become denser.
     lights : optional
@@ -408,6 +421,8 @@ def render(
         up=up,
         fov=fov,
         height=height,
+        view=view,
+        zoom=zoom,
         silhouette=silhouette,
         lights=lights,
         samples=samples,

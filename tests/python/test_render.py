@@ -200,6 +200,13 @@ def test_progress(bucky):
         tetralux.render(bucky, size=SIZE, progress=refuse)
 
 
+def test_progress_cannot_draw_with_its_own_renderer(bucky):
+    renderer = tetralux.Renderer(bucky, size=SIZE)
+    with pytest.raises(ValueError, match="take another renderer"):
+        renderer.render(progress=lambda share: renderer.render())
+    assert renderer.render().rgba[..., 3].max() > 0
+
+
 def test_engines_and_presets():
     names = [name for name, available, why in tetralux.engines()]
     assert names[0] == "cpu" and "reference" in names

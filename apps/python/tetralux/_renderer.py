@@ -89,6 +89,7 @@ class Renderer:
             raise InputError("renderer: give engine and context as texts and threads as a whole number") from None
         _open.add(self)
         self._lock = threading.RLock()
+        self._teller: Optional[int] = None  # the thread in which progress is told
         self._changed: set[str] = set()
         self._title = ""
         self._last: Optional[tuple[_core.Camera, npt.NDArray[np.float32]]] = None
@@ -201,6 +202,7 @@ class Renderer:
         ValueError, KeyError, tetralux.Error
             KeyboardInterrupt ends a frame within 50 ms, CancelledError after `cancel`.
         """
+        self._check_thread()
         with self._lock:
             self._update()
             width, rows = size_of(self.size if size is _UNSET else size)
@@ -217,11 +219,26 @@ class Renderer:
             camera = seen.camera(self._mesh, (width, rows))
             background = self._background()
             rgba = np.empty((rows, width, 4), np.float32)
-            report = self._core.render(rgba, camera, progress, float(budget), _depth(depth_limit, rows, width))
+            report = self._core.render(rgba, camera, self._told(progress), float(budget), _depth(depth_limit, rows, width))
             self._last = camera, rgba
         report["field"] = self._title
         image = Image(rgba, report)
         return image if background is None else image.over(background)
+
+    def _told(self, progress: Optional[Callable[[float], Any]]) -> Optional[Callable[[float], Any]]:
+        if progress is None:
+            return None
+
+        def tell(share: float) -> None:
+            self._teller = threading.get_ident()
+            progress(share)
+
+        return tell
+
+    def _check_thread(self) -> None:
+        """The thread that draws cannot wait for itself."""
+        if self._teller == threading.get_ident():
+            raise InputError("progress: it must not ask the renderer that it tells of; take another renderer there")
 
     def _background(self) -> Optional[tuple[float, float, float]]:
         if self.background is None:  # a radiograph is black without light behind it
@@ -235,6 +252,7 @@ class Renderer:
 
         Returns rmse, max (over RGBA in [0, 1]), bound95 (of the rmse of all pixels, 95 % sure), pixels, unseen_share.
         """
+        self._check_thread()
         with self._lock:
             if self._last is None:
                 raise InputError("verify: there was no picture yet; render one first")
@@ -247,6 +265,7 @@ class Renderer:
         Returns hit, and where anything first shows: distance from the eye, position, scalar (all of them of the field
         and in mesh units), and segments: (begin, end, scalar at begin, scalar at end, alpha) nearest first.
         """
+        self._check_thread()
         with self._lock:
             if self._last is None:
                 raise InputError("probe: there was no picture yet; render one first")

@@ -265,45 +265,59 @@ std::vector<Surface> surfacesOf(const std::vector<std::tuple<Points, Triangles, 
 
 void bindSetters(nb::class_<BoundRenderer>& bound) {
     bound
-        .def("set_field",
-             [](BoundRenderer& self, const Field& field) {
-                 self.with([field](Renderer& renderer) { renderer.setField(field); });
-             })
+        .def(
+            "set_field",
+            [](BoundRenderer& self, const Field& field) {
+                self.with([field](Renderer& renderer) { renderer.setField(field); });
+            },
+            "field"_a)
         .def(
             "set_transfer_function",
             [](BoundRenderer& self, const std::optional<TransferFunction>& function) {
                 self.with([function](Renderer& renderer) { renderer.setTransferFunction(function); });
             },
             "function"_a.none())
-        .def("set_mode",
-             [](BoundRenderer& self, const std::string& name) {
-                 const Mode mode = modeOf(name);
-                 self.with([mode](Renderer& renderer) { renderer.setMode(mode); });
-             })
-        .def("set_lighting",
-             [](BoundRenderer& self, const std::string& document) {
-                 self.with([document](Renderer& renderer) { renderer.setLighting(document); });
-             })
-        .def("set_silhouettes",
-             [](BoundRenderer& self, const std::string& name) {
-                 const Silhouettes silhouettes = silhouettesOf(name);
-                 self.with([silhouettes](Renderer& renderer) { renderer.setSilhouettes(silhouettes); });
-             })
-        .def("set_samples",
-             [](BoundRenderer& self, int samples) {
-                 self.with([samples](Renderer& renderer) { renderer.setSamples(samples); });
-             })
-        .def("set_cuts",
-             [](BoundRenderer& self, const std::vector<std::pair<Vector, Vector>>& planes) {
-                 std::vector<Cut> cuts;
-                 for (const auto& [point, normal] : planes) cuts.push_back({point, normal});
-                 self.with([cuts](Renderer& renderer) { renderer.setCuts(cuts); });
-             })
-        .def("set_surfaces",
-             [](BoundRenderer& self, const std::vector<std::tuple<Points, Triangles, Vector, bool>>& given) {
-                 const std::vector<Surface> surfaces = surfacesOf(given);
-                 self.with([surfaces](Renderer& renderer) { renderer.setSurfaces(surfaces); });
-             });
+        .def(
+            "set_mode",
+            [](BoundRenderer& self, const std::string& name) {
+                const Mode mode = modeOf(name);
+                self.with([mode](Renderer& renderer) { renderer.setMode(mode); });
+            },
+            "name"_a)
+        .def(
+            "set_lighting",
+            [](BoundRenderer& self, const std::string& document) {
+                self.with([document](Renderer& renderer) { renderer.setLighting(document); });
+            },
+            "document"_a)
+        .def(
+            "set_silhouettes",
+            [](BoundRenderer& self, const std::string& name) {
+                const Silhouettes silhouettes = silhouettesOf(name);
+                self.with([silhouettes](Renderer& renderer) { renderer.setSilhouettes(silhouettes); });
+            },
+            "name"_a)
+        .def(
+            "set_samples",
+            [](BoundRenderer& self, int samples) {
+                self.with([samples](Renderer& renderer) { renderer.setSamples(samples); });
+            },
+            "samples"_a)
+        .def(
+            "set_cuts",
+            [](BoundRenderer& self, const std::vector<std::pair<Vector, Vector>>& planes) {
+                std::vector<Cut> cuts;
+                for (const auto& [point, normal] : planes) cuts.push_back({point, normal});
+                self.with([cuts](Renderer& renderer) { renderer.setCuts(cuts); });
+            },
+            "planes"_a)
+        .def(
+            "set_surfaces",
+            [](BoundRenderer& self, const std::vector<std::tuple<Points, Triangles, Vector, bool>>& given) {
+                const std::vector<Surface> surfaces = surfacesOf(given);
+                self.with([surfaces](Renderer& renderer) { renderer.setSurfaces(surfaces); });
+            },
+            "surfaces"_a);
 }
 
 }  // namespace

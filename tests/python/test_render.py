@@ -51,7 +51,7 @@ SCENES = {
     ),
     "a list of opacities": (
         {"cmap": "Turbo_r", "opacity": [0, 0.3, 0.1]},
-        "--tf turbo_r --opacity 0,0.3,0.1".split(),
+        ["--tf", "OPACITIES"],
     ),
     "logarithm": ({"cmap": "inferno", "log_scale": True, "clim": (0.01, 1)}, "--tf inferno --log --range 0.01,1".split()),
     "range alone": ({"clim": (0.2, 0.6)}, ["--range", "0.2,0.6"]),
@@ -67,7 +67,10 @@ def test_equals_the_program_to_the_bit(scene, bucky, drawn_by_program, tmp_path)
     options, arguments = SCENES[scene]
     file = tmp_path / "function.json"
     file.write_text(json.dumps(FUNCTION))
-    arguments = [str(file) if each == "FUNCTION" else each for each in arguments]
+    opacities = tmp_path / "opacities.json"
+    opacities.write_text('{"colorMap": "turbo_r", "opacity": [[0, 0], [0.5, 0.3], [1, 0.1]]}')
+    files = {"FUNCTION": str(file), "OPACITIES": str(opacities)}
+    arguments = [files.get(each, each) for each in arguments]
     size = (60, 45) if scene == "reference" else SIZE
     drawn = drawn_by_program("bucky:16", "--size", f"{size[0]}x{size[1]}", *arguments)
     image = tetralux.render(bucky, size=size, **options)
@@ -146,6 +149,21 @@ def test_colour_maps_of_matplotlib_and_lists(bucky):
         tetralux.render(bucky, transfer_function=FUNCTION, cmap="viridis", size=SIZE)
 
 
+def test_views_by_name_and_zoom(bucky):
+    def seen(**view):
+        return tetralux.render(bucky, "x", size=(60, 60), transfer_function="grayscale", **view).rgba
+
+    right, top = seen(view="yz"), seen(view="xy")
+    side = seen(view="xz")
+    # x grows to the right when seen along z or y, and towards the eye along x
+    assert top[20:40, 38:44, 0].mean() > 1.5 * top[20:40, 16:22, 0].mean()
+    assert side[20:40, 38:44, 0].mean() > 1.5 * side[20:40, 16:22, 0].mean()
+    np.testing.assert_allclose(right[20:40, 20:40].mean(axis=1), right[20:40, 20:40][::-1].mean(axis=1), atol=0.05)
+    assert not np.array_equal(seen(view="iso"), seen())
+    assert (seen(view="xy", zoom=1.5)[..., 3] > 0).sum() > 1.3 * (top[..., 3] > 0).sum()
+    assert (seen(view="xy", height=4, zoom=2)[..., 3] > 0).sum() > 2 * (seen(view="xy", height=4)[..., 3] > 0).sum()
+
+
 def test_verify_and_probe(bucky):
     renderer = tetralux.Renderer(bucky, size=SIZE)
     with pytest.raises(ValueError, match="render one first"):
@@ -180,6 +198,13 @@ def test_progress(bucky):
 
     with pytest.raises(LookupError, match="enough"):
         tetralux.render(bucky, size=SIZE, progress=refuse)
+
+
+def test_progress_cannot_draw_with_its_own_renderer(bucky):
+    renderer = tetralux.Renderer(bucky, size=SIZE)
+    with pytest.raises(ValueError, match="take another renderer"):
+        renderer.render(progress=lambda share: renderer.render())
+    assert renderer.render().rgba[..., 3].max() > 0
 
 
 def test_engines_and_presets():

@@ -37,7 +37,7 @@ __all__ = [
 
 def engines() -> list[tuple[str, bool, str]]:
     """(name, whether this machine can run it, why not) of each engine."""
-    return [tuple(each) for each in _core.engines()]
+    return list(_core.engines())
 
 
 def presets() -> list[str]:

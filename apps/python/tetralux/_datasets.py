@@ -82,7 +82,8 @@ def _unstructured(source: Any) -> Any:
 
 
 def _numpy(array: Any) -> npt.NDArray[Any]:
-    return importlib.import_module("vtkmodules.util.numpy_support").vtk_to_numpy(array)
+    values: npt.NDArray[Any] = importlib.import_module("vtkmodules.util.numpy_support").vtk_to_numpy(array)
+    return values
 
 
 def _fields(data: Any) -> tuple[dict[str, Any], dict[str, list[str]]]:

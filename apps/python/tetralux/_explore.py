@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
+from ._camera import size_of
 from ._errors import UnsupportedError
 from ._fields import choose
 from ._mesh import Source
@@ -77,7 +78,7 @@ class Explorer:
         low, high = (np.array(each) for each in self.renderer.mesh.bounds)
         self._target = 0.5 * (low + high)
         like = _core.Camera((0, 0, 1), (0, 0, 0), (0, 1, 0), self.renderer.fov, 0.0, (0.0, 0.0))
-        eye, _ = _core.camera_holding(self.renderer.mesh._core, *self.renderer.size, like)
+        eye, _ = _core.camera_holding(self.renderer.mesh._core, *size_of(self.renderer.size), like)
         self._distance = float(np.linalg.norm(np.array(eye) - self._target))
 
     def _listen(self) -> None:

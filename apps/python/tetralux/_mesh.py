@@ -12,7 +12,7 @@ import numpy as np
 from . import _core
 from ._arrays import Floats, points_array
 from ._cells import core_mesh
-from ._errors import InputError, UnsupportedError
+from ._errors import FieldError, InputError, UnsupportedError
 
 
 class Mesh:
@@ -129,7 +129,7 @@ class Mesh:
 
     def __getitem__(self, name: str) -> Any:
         """A field's values, of points first. Raises KeyError naming the nearest field."""
-        from ._fields import FieldError, missing
+        from ._fields import missing
 
         for data in (self.point_data, self.cell_data):
             if name in data:

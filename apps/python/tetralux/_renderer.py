@@ -70,6 +70,8 @@ class Renderer:
         up: Optional[Sequence[float]] = None,
         fov: float = 30.0,
         height: Optional[float] = None,
+        view: Optional[str] = None,
+        zoom: float = 1.0,
         silhouette: Any = False,
         lights: Any = None,
         samples: int = 1,
@@ -87,6 +89,7 @@ class Renderer:
             raise InputError("renderer: give engine and context as texts and threads as a whole number") from None
         _open.add(self)
         self._lock = threading.RLock()
+        self._teller: Optional[int] = None  # the thread in which progress is told
         self._changed: set[str] = set()
         self._title = ""
         self._last: Optional[tuple[_core.Camera, npt.NDArray[np.float32]]] = None
@@ -107,6 +110,7 @@ class Renderer:
         self.size = size
         self.eye, self.target, self.up = eye, target, up
         self.fov, self.height = fov, height
+        self.view, self.zoom = view, zoom
 
     @property
     def mesh(self) -> Any:
@@ -170,6 +174,8 @@ class Renderer:
         up: Any = _UNSET,
         fov: Any = _UNSET,
         height: Any = _UNSET,
+        view: Any = _UNSET,
+        zoom: Any = _UNSET,
         window_center: tuple[float, float] = (0.0, 0.0),
         progress: Optional[Callable[[float], Any]] = None,
         budget: float = 0.0,
@@ -179,7 +185,7 @@ class Renderer:
 
         Parameters
         ----------
-        size, eye, target, up, fov, height
+        size, eye, target, up, fov, height, view, zoom
             As at `tetralux.render`; where not given, the renderer's own.
         window_center : (float, float)
             Where the picture's middle lies beside the optical axis: half widths to the right, half heights up.
@@ -196,25 +202,43 @@ class Renderer:
         ValueError, KeyError, tetralux.Error
             KeyboardInterrupt ends a frame within 50 ms, CancelledError after `cancel`.
         """
+        self._check_thread()
         with self._lock:
             self._update()
             width, rows = size_of(self.size if size is _UNSET else size)
-            view = View(
+            seen = View(
                 self.eye if eye is _UNSET else eye,
                 self.target if target is _UNSET else target,
                 self.up if up is _UNSET else up,
                 self.fov if fov is _UNSET else fov,
                 self.height if height is _UNSET else height,
                 window_center,
+                self.view if view is _UNSET else view,
+                self.zoom if zoom is _UNSET else zoom,
             )
-            camera = view.camera(self._mesh, (width, rows))
+            camera = seen.camera(self._mesh, (width, rows))
             background = self._background()
             rgba = np.empty((rows, width, 4), np.float32)
-            report = self._core.render(rgba, camera, progress, float(budget), _depth(depth_limit, rows, width))
+            report = self._core.render(rgba, camera, self._told(progress), float(budget), _depth(depth_limit, rows, width))
             self._last = camera, rgba
         report["field"] = self._title
         image = Image(rgba, report)
         return image if background is None else image.over(background)
+
+    def _told(self, progress: Optional[Callable[[float], Any]]) -> Optional[Callable[[float], Any]]:
+        if progress is None:
+            return None
+
+        def tell(share: float) -> None:
+            self._teller = threading.get_ident()
+            progress(share)
+
+        return tell
+
+    def _check_thread(self) -> None:
+        """The thread that draws cannot wait for itself."""
+        if self._teller == threading.get_ident():
+            raise InputError("progress: it must not ask the renderer that it tells of; take another renderer there")
 
     def _background(self) -> Optional[tuple[float, float, float]]:
         if self.background is None:  # a radiograph is black without light behind it
@@ -228,6 +252,7 @@ class Renderer:
 
         Returns rmse, max (over RGBA in [0, 1]), bound95 (of the rmse of all pixels, 95 % sure), pixels, unseen_share.
         """
+        self._check_thread()
         with self._lock:
             if self._last is None:
                 raise InputError("verify: there was no picture yet; render one first")
@@ -240,6 +265,7 @@ class Renderer:
         Returns hit, and where anything first shows: distance from the eye, position, scalar (all of them of the field
         and in mesh units), and segments: (begin, end, scalar at begin, scalar at end, alpha) nearest first.
         """
+        self._check_thread()
         with self._lock:
             if self._last is None:
                 raise InputError("probe: there was no picture yet; render one first")
@@ -316,6 +342,8 @@ def render(
     up: Optional[Sequence[float]] = None,
     fov: float = 30.0,
     height: Optional[float] = None,
+    view: Optional[str] = None,
+    zoom: float = 1.0,
     silhouette: Any = False,
     lights: Any = None,
     samples: int = 1,
@@ -361,6 +389,10 @@ def render(
         Vertical field of view.
     height : float, mesh units, optional
         Makes the view orthographic: so much over the picture's height.
+    view : "xy", "yx", "xz", "zx", "yz", "zy" or "iso", optional
+        The mesh from that side, as in PyVista, where no eye is given.
+    zoom : float, default 1
+        Above 1: nearer, by a smaller field of view (or height).
     silhouette : bool or "approximate", default False
         Layers seen edge-on become denser.
     lights : optional
@@ -408,6 +440,8 @@ def render(
         up=up,
         fov=fov,
         height=height,
+        view=view,
+        zoom=zoom,
         silhouette=silhouette,
         lights=lights,
         samples=samples,

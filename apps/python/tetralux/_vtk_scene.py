@@ -62,7 +62,8 @@ class ViewGeometry:
             y = (1 - (2 * np.arange(height) + 1) / height + self.center[1]) * self.tangent
             along = near * far / (far - z * (far - near)) * np.sqrt(1 + x[None, :] ** 2 + y[:, None] ** 2)
         along[depth >= 1] = np.inf
-        return along.astype(np.float32)
+        limits: npt.NDArray[np.float32] = along.astype(np.float32)
+        return limits
 
     def near_plane(self) -> npt.NDArray[np.float64]:
         """World from a square of corners (±1, ±1, 0) that fills the viewport just behind the near plane."""
@@ -126,7 +127,7 @@ class _Square:
         self.texture.SetInputData(image)
         self.texture.SetInterpolate(smooth)
         placed = vtkMatrix4x4()
-        placed.DeepCopy(matrix.ravel())
+        placed.DeepCopy(matrix.ravel().tolist())
         self.actor.SetUserMatrix(placed)
 
 
@@ -262,4 +263,5 @@ class SceneVolumes:
         self.target.GetRenderWindow().GetZbufferData(
             left, bottom, left + size[0] - 1, bottom + size[1] - 1, values
         )
-        return vtk_to_numpy(values).reshape(size[1], size[0])[::-1]
+        depth: npt.NDArray[np.float32] = vtk_to_numpy(values).reshape(size[1], size[0])[::-1]
+        return depth

@@ -24,6 +24,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <tetralux/appearance.h>
@@ -41,6 +42,22 @@ struct Camera {
     /// Where the picture's middle lies beside the optical axis, in half widths to the right and half heights up, as
     /// VTK's window centre has it. For stereo pairs and walls of displays.
     std::array<double, 2> windowCentre{0, 0};
+};
+
+/// A view that Renderer::fittedCamera fits to what shows.
+struct FittedView {
+    Vector direction{-1, -0.7, -1.5};  ///< from the eye into the picture, any length
+    Vector up{0, 1, 0};
+    double azimuth = 0, elevation = 0, roll = 0;  ///< then turned as vtkCamera turns, degrees
+    double fovDegrees = 30;
+    bool orthographic = false;
+    double zoom = 1;         ///< then narrowed by this factor
+    double margin = 0.02;    ///< share of the picture that stays free at each edge
+    bool wholeMesh = false;  ///< held are hidden cells as well
+
+    /// x, -x, y, -y, z, -z (the eye stands on that side), iso (from 1, 1, 1), and xy, xz, yz, yx, zx, zy as PyVista has
+    /// them. \throws Error for other names.
+    static FittedView named(std::string_view name);
 };
 
 /// A three-quarter view that holds the whole box, for a picture of that shape.
@@ -82,6 +99,7 @@ struct FrameResult {
     std::uint64_t pixelsRepaired = 0;                   ///< composed by the exact reference
     std::uint64_t pixelsWrong = 0;                      ///< that nothing vouches for and nothing repaired
     std::map<std::string, double> stageMilliseconds;
+    std::string emptyBecause;             ///< why nothing shows and what would mend it; empty where something does
     int drawnWidth = 0, drawnHeight = 0;  ///< less than the picture's where a budget asked for it
 };
 
@@ -135,6 +153,11 @@ public:
     void setCuts(std::vector<Cut> cuts, std::optional<double> layer = {});
     void setSlices(std::vector<Slice> slices);
     void setSurfaces(std::vector<Surface> surfaces);
+    void setBoundary(std::optional<Boundary> boundary);  ///< nothing: it is not drawn
+
+    /// The camera that looks along the view's direction, as near as it can be with all that shows in the picture: cells
+    /// that the transfer function shows, within cuts, slices and surfaces. \throws Error when nothing shows.
+    Camera fittedCamera(const FittedView& view, int width, int height);
 
     FrameResult render(const Camera& camera, ImageView image, const Control& control = {});
 

@@ -48,14 +48,16 @@ struct Camera {
 
 /// A view that Renderer::fittedCamera fits to what shows.
 struct FittedView {
-    Vector direction{-1, -0.7, -1.5};             ///< from the eye into the picture, any length
-    Vector up{0, 1, 0};                           ///< what is up in the picture
-    double azimuth = 0, elevation = 0, roll = 0;  ///< then turned as vtkCamera turns, degrees
-    double fovDegrees = 30;
-    bool orthographic = false;
-    double zoom = 1;         ///< then narrowed by this factor
-    double margin = 0.02;    ///< share of the picture that stays free at each edge
-    bool wholeMesh = false;  ///< held are hidden cells as well
+    Vector direction{-1, -0.7, -1.5};  ///< from the eye into the picture, any length
+    Vector up{0, 1, 0};                ///< what is up in the picture
+    double azimuth = 0;                ///< then turned as vtkCamera turns, degrees
+    double elevation = 0;              ///< likewise
+    double roll = 0;                   ///< likewise
+    double fovDegrees = 30;            ///< vertical
+    bool orthographic = false;         ///< then of the height that what shows asks for
+    double zoom = 1;                   ///< then narrowed by this factor
+    double margin = 0.02;              ///< share of the picture that stays free at each edge
+    bool wholeMesh = false;            ///< held are hidden cells as well
 
     /// x, -x, y, -y, z, -z (the eye stands on that side), iso (from 1, 1, 1), and xy, xz, yz, yx, zx, zy as PyVista has
     /// them. \throws Error for other names.

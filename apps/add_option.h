@@ -4,8 +4,10 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -33,6 +35,20 @@ CLI::Option* addNumber(CLI::App& command, const std::string& name, Target& targe
         target = value;
     };
     return command.add_option_function<Number>(name, store, help);
+}
+
+/// An option that may be given several times; each text is handed to `take`.
+inline void addRepeated(CLI::App& command, const std::string& name, const std::string& form, const std::string& help,
+                        const std::function<void(const std::string&)>& take) {
+    command
+        .add_option_function<std::vector<std::string>>(
+            name,
+            [take](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) take(text);
+            },
+            help)
+        ->type_name(form)
+        ->allow_extra_args(false);
 }
 
 inline bool positive(double value) {

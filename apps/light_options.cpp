@@ -48,20 +48,6 @@ Light pointLight(const std::string& text) {
     return light;
 }
 
-/// An option that may be given several times; `use` is called for each.
-void addRepeated(CLI::App& command, const std::string& name, const std::string& form, const std::string& help,
-                 const std::function<void(const std::string&)>& use) {
-    command
-        .add_option_function<std::vector<std::string>>(
-            name,
-            [use](const std::vector<std::string>& texts) {
-                for (const std::string& text : texts) use(text);
-            },
-            help)
-        ->type_name(form)
-        ->allow_extra_args(false);
-}
-
 /// "radius=4,gamma=60".
 void setAnisotropy(const std::string& text, shading::AnisotropySettings& settings) {
     for (std::size_t begin = 0; begin <= text.size();) {

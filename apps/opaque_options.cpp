@@ -23,20 +23,6 @@ double parseOpacity(const std::string& text) {
     return opacity;
 }
 
-/// An option that may be given several times; each text is handed to `take`.
-void addRepeated(CLI::App& command, const std::string& name, const std::string& form, const std::string& help,
-                 const std::function<void(const std::string&)>& take) {
-    command
-        .add_option_function<std::vector<std::string>>(
-            name,
-            [take](const std::vector<std::string>& texts) {
-                for (const std::string& text : texts) take(text);
-            },
-            help)
-        ->type_name(form)
-        ->allow_extra_args(false);
-}
-
 }  // namespace
 
 projection::Slice parseSlice(const std::string& option, const std::string& text) {

@@ -14,7 +14,7 @@ namespace tetralux::apps {
 
 namespace {
 
-constexpr const char* form = "all or first:last[:every], steps counted from 0, -1 the last";
+constexpr const char* timesForm = "all or first:last[:every], steps counted from 0, -1 the last";
 
 /// Whole numbers between colons.
 std::vector<long> numbersOf(const std::string& text) {
@@ -24,7 +24,7 @@ std::vector<long> numbersOf(const std::string& text) {
         long number = 0;
         const auto [stop, error] = std::from_chars(at, end, number);
         if (error != std::errc() || (stop != end && *stop != ':'))
-            throw std::runtime_error(fmt::format("--times: '{}' names no steps; give {}", text, form));
+            throw std::runtime_error(fmt::format("--times: '{}' names no steps; give {}", text, timesForm));
         numbers.push_back(number);
         if (stop == end) return numbers;
         at = stop + 1;
@@ -66,7 +66,7 @@ std::vector<std::size_t> chosenSteps(const TimeOptions& options, std::size_t cou
     };
     const long every = numbers.size() > 2 ? numbers[2] : 1;
     if (numbers.size() > 3 || every < 1)
-        throw std::runtime_error(fmt::format("--times: '{}' names no steps; give {}", options.times, form));
+        throw std::runtime_error(fmt::format("--times: '{}' names no steps; give {}", options.times, timesForm));
     const long first = stepOf(numbers.front()), last = stepOf(numbers.size() > 1 ? numbers[1] : numbers[0]);
     if (last < first)
         throw std::runtime_error(fmt::format("--times: step {} comes after step {}; give first:last", first, last));

@@ -4,9 +4,9 @@
 // and C++; see preint/glsl_prelude.h for the common subset.
 //
 // A segment is (meanColor, opticalDepth): C_seg/α_seg and −ln(1 − α_seg). In these terms Equation 15, α′ = 1 − (1 − α)^k,
-// is opticalDepth′ = k·opticalDepth, and Equation 17, C′ = C·α′/α, leaves meanColor as it is.
+// is opticalDepth′ = k·opticalDepth, with k of Equation 17, and C′ = C·α′/α (behind Equation 15) leaves meanColor as it is.
 
-// Equation 15 with k = |g|/|g·d| = 1/|cosine|, cosine = n·d. `smoothDepthTimesK` is the part of the depth that stays finite as the
+// Equation 15 with k = |g|/|g·d| = 1/|cosine| (Equation 17), cosine = n·d. `smoothDepthTimesK` is the part of the depth that stays finite as the
 // cosine vanishes, already multiplied by k (scale-invariant: mean τ·|g|·l); `otherDepth` is the rest (isosurfaces; all of it in the standard integral).
 TETRALUX_GLSL_FUNCTION real silhouetteDepth(real smoothDepthTimesK, real otherDepth, real cosine) {
     return smoothDepthTimesK + otherDepth / max(abs(cosine), real(1e-30));

@@ -95,8 +95,8 @@ struct DepthColor {
 struct ShadingSettings {
     bool silhouette = false;             ///< Kraus 2005, Equations 15 and 17
     bool approximateSilhouette = false;  ///< α' = min(1, α·k), Equation 16, where there are silhouettes
-    /// Levoy's scaling by the gradient's magnitude (Kraus 2005, Eq. 18): the depth of a segment is multiplied by this
-    /// times |g|, g in ranges of the scalar per diagonal of the mesh. 0: off.
+    /// Levoy's scaling by the gradient's magnitude, which Kraus 2005, Eq. 18 relates to silhouettes: the depth of a
+    /// segment is multiplied by this times |g|, g in ranges of the scalar per diagonal of the mesh. 0: off.
     double gradientOpacity = 0.0;
     std::vector<Light> lights;   ///< none: colours are emitted as they are
     double ambient = 0.1;        ///< intensity of ambient light, used when there are lights

@@ -55,8 +55,8 @@ DepthRange depthRange(const mesh::BoundingBox& bounds, const Camera& camera);
 /// What a segment from s_f to s_b with path P (its length, or |s_b − s_f| in the scale-invariant integral) shows.
 enum class Classification {
     Preintegrated,  ///< the integral itself
-    Post,           ///< Kraus 2005, Eq. 10: α = 1 − exp(−τ(s_m)·P), colour c(s_m), s_m = (s_f + s_b)/2; no peaks
-    PostLinear,     ///< Eq. 11, the linear form: α = min(1, τ(s_m)·P)
+    Post,           ///< Kraus 2005, Eq. 10 and 11: colour c(s_m), α = 1 − exp(−τ(s_m)·P), s_m = (s_f + s_b)/2; no peaks
+    PostLinear,     ///< the approximation at the end of Eq. 11: α = min(1, τ(s_m)·P)
     Pre             ///< τ and c at the vertices, interpolated to the segment's middle, instead of those of s_m
 };
 

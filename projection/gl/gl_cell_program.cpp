@@ -275,7 +275,7 @@ void GlCellProgram::setConstants(const RenderSettings& settings, const std::vect
                    reinterpret_cast<const float*>(supportFloats.data()));
     const auto& shading = settings.shading;
     std::vector<glm::vec3> lights;
-    for (const auto& light : shading.lights) lights.emplace_back(light.towards);
+    for (const auto& light : shading.lights) lights.emplace_back(glm::normalize(light.towards));
     gl_.Uniform3fv(program_.uniform("lights"), static_cast<GLsizei>(lights.size()),
                    reinterpret_cast<const float*>(lights.data()));
     gl_.Uniform1f(program_.uniform("ambient"), static_cast<float>(shading.ambient));

@@ -326,7 +326,7 @@ Shaded shade(const preint::ExactIntegral& exact, const Scene& scene, const Ray& 
         }
         depth = glsl::silhouetteDepth(smoothTimesK, other, cosine);
     }
-    if (shading.gradientOpacity > 0) {  // Kraus 2005, Equation 18, with |g| in ranges per diagonal
+    if (shading.gradientOpacity > 0) {  // Levoy's (Kraus 2005, Equation 18), with |g| in ranges per diagonal
         const SceneUnits units = sceneUnits(*scene.mesh);
         factor = shading.gradientOpacity * magnitude * units.length / units.scalarScale;
     }

@@ -156,6 +156,6 @@ def segments_of(mesh, origins, directions):
         ends.append((at, value))
     (t0, s0), (t1, s1) = ends
     found = Segments(ray, cell, t0, t1, s0, s1)
-    touch = 1e-15 * mesh.size + 64 * float(moved)
+    touch = 1e-15 * mesh.size + 1e4 * float(moved)  # where faces graze a ray they are that much longer than it was moved
     found = found.where((found.t_out - found.t_in > touch) & (found.t_out > touch))
     return found.limited(REAL(0), REAL(np.inf))

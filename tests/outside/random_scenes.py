@@ -49,7 +49,7 @@ class Scene:
         self.function = random_function(rng, function, scalars, None if over_scalar else 1 / self.mesh.bounding_sphere()[1], 1.0 if over_scalar else None)
         self.size = SIZES[rng.integers(len(SIZES))]
         self.view = random_camera(rng, camera, self.mesh)
-        self.look, self.words = random_look(rng, mode, self.mesh)
+        self.look, self.words = random_look(rng, mode, self.mesh, mesh == "overlapping")
         self.gl_words = ["--context", pick(("egl", "osmesa")), "--gl-path", pick(("stream", "stream", "resident", "tiles"))]
 
     def wanted(self):

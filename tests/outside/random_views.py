@@ -150,14 +150,16 @@ OPTIONS = {"standard": INTEGRATING, "scale-invariant": INTEGRATING, "first-hit":
            "additive-scale-invariant": (_clip, _depth_color), "emission": (_clip, _depth_color)}
 
 
-def random_look(rng, mode, mesh):
-    """A Look, and the words for it."""
+def random_look(rng, mode, mesh, overlapping):
+    """A Look, and the words for it. Where cells overlap a slice has the colours of either."""
     look, words = Look(mode=mode), ["--mode", mode]
     choices = OPTIONS[mode]
     count = int(rng.choice([0, 1, 2, 3], p=[0.35, 0.3, 0.2, 0.15]))
     chosen = [choices[k] for k in sorted(rng.permutation(len(choices))[:count])]
     if _lights in chosen and _clip in chosen:
         chosen.remove(_clip)  # the caster knows no layer that is lit by a cut's normal
+    if _slice in chosen and overlapping:
+        chosen.remove(_slice)
     for choose in chosen:
         words += choose(rng, mesh, look)
     return look, words

@@ -193,6 +193,7 @@ STATEMENTS |= {"Limits": limits, "Classification": classification, "Silhouettes"
                "Locally adaptive opacity": "tests/outside/check_adaptive.py",
                "Anti-aliasing": "tests/projection/sampled_engine_test.cpp",
                "Scalars that are exactly a node's": "tests/stress/stress_values_test.cpp", "Surfaces": "tests/projection/opaque_layer_test.cpp",
+               "The boundary": "tests/projection/boundary_surface_test.cpp",
                "Isolines": "tests/mesh/isolines_test.cpp, tests/projection/isoline_test.cpp",
                "Shadows": "tests/projection/light_test.cpp, tests/projection/opaque_layer_test.cpp",
                "Adaptive opacity": "tests/projection/adaptive_opacity_test.cpp"}

@@ -11,6 +11,7 @@
 #include <mesh/tet/tet_mesh.h>
 #include <preint/transfer_function.h>
 #include <projection/core/camera.h>
+#include <projection/core/fitted_view.h>
 #include <projection/image/image.h>
 
 namespace CLI {
@@ -21,6 +22,7 @@ namespace tetralux::apps {
 
 struct AnnotationOptions {
     bool colorBar = false, axes = false;
+    std::string caption = "{field}";  ///< of the colour bar; {field} is the field's name
     std::string title;
 
     bool empty() const { return !colorBar && !axes && title.empty(); }
@@ -38,6 +40,9 @@ struct AnnotatedScene {
     std::vector<double> values{};  ///< of a categorical map: the bar has a step for each
     glm::dvec3 background{0};      ///< ink is white before a dark one, black before a bright one
 };
+
+/// Room at the picture's edges for what explains it, so that a view can be fitted beside it.
+projection::Margins marginsFor(const AnnotationOptions& options, const AnnotatedScene& scene, int width, int height);
 
 /// The edges of the axes box that the volume hides: before a background is put under the picture.
 void drawBehind(const AnnotationOptions& options, const AnnotatedScene& scene, const projection::Camera& camera,

@@ -43,7 +43,7 @@ void drawMap(const preint::ColorMap& map, const glm::dvec2& corner, const glm::d
 
 /// In columns, each map a bar with its name beside it.
 void drawChart(const std::vector<preint::ColorMap>& maps, const std::string& path) {
-    constexpr int bar = 180, label = 220, row = 22, gap = 8, mostRows = 50;
+    constexpr int bar = 180, label = 280, row = 22, gap = 8, mostRows = 50;
     const int count = static_cast<int>(maps.size());
     const int columns = (count + mostRows - 1) / mostRows, rows = (count + columns - 1) / columns;
     const int width = columns * (bar + label) + gap, height = rows * row + gap;

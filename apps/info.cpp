@@ -18,6 +18,7 @@
 #include <apps/read_options.h>
 #include <apps/report_text.h>
 #include <mesh/io/read_mesh.h>
+#include <mesh/soup/mesh_shaping.h>
 #include <mesh/tet/mesh_statistics.h>
 
 namespace tetralux::apps {
@@ -37,11 +38,15 @@ struct Findings {
     mesh::MeshReport report;  ///< of reading, with the defects that the statistics found
     mesh::MeshStatistics statistics;
     mesh::TetMesh mesh;
+    std::vector<double> times;        ///< of all steps of a series
+    std::vector<std::string> blocks;  ///< names and numbers of its parts
 };
 
 Findings findingsOf(const InfoOptions& options) {
     mesh::ReadResult source = mesh::readMesh(options.source, options.read);
-    Findings findings{source.report, mesh::meshStatistics(source.mesh), std::move(source.mesh)};
+    std::vector<std::string> blocks = mesh::blockList(source);
+    Findings findings{source.report, mesh::meshStatistics(source.mesh), std::move(source.mesh), source.times,
+                      std::move(blocks)};
     // What reading has counted already is kept: it speaks of the cells of the file.
     findings.report.defects.insert(findings.statistics.defects.begin(), findings.statistics.defects.end());
     return findings;
@@ -86,6 +91,8 @@ nlohmann::json infoJson(const InfoOptions& options, const Findings& found) {
              {{"inner", all.innerFaces}, {"boundary", all.boundaryFaces}, {"delaunay_share", all.delaunayShare()}}},
             {"components", {{"count", all.components}, {"largest", all.largestComponent}}},
             {"notes", found.report.notes},
+            {"times", found.times},
+            {"blocks", found.blocks},
             {"memory_bytes", all.memoryBytes},
             {"fields", fields},
             {"defects", defectsJson(found.report)}};
@@ -120,6 +127,18 @@ void printField(const mesh::FieldStatistics& field) {
     fmt::print("\n");
 }
 
+/// How many, and their times by number: "21, times 0: 0, 1: 0.05, …".
+std::string stepsText(const std::vector<double>& times) {
+    constexpr std::size_t shown = 24;
+    std::string text = fmt::format("{}, by number and time", times.size());
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        if (times.size() > shown && i == shown / 2) text += " ...";
+        if (times.size() > shown && i >= shown / 2 && i + shown / 2 < times.size()) continue;
+        text += fmt::format("{} {}: {:.6g}", i == 0 ? "" : ",", i, times[i]);
+    }
+    return text;
+}
+
 void printInfo(const InfoOptions& options, const Findings& found) {
     const mesh::MeshStatistics& all = found.statistics;
     const mesh::BoundingBox& box = all.bounds;
@@ -140,6 +159,8 @@ void printInfo(const InfoOptions& options, const Findings& found) {
                    found.report.facesFitted);
     if (found.report.pointsMerged > 0) fmt::print("merged: {} points with an equal one\n", found.report.pointsMerged);
     fmt::print("memory: {:.1f} MiB\n", static_cast<double>(all.memoryBytes) / (1024.0 * 1024.0));
+    if (!found.times.empty()) fmt::print("steps: {}\n", stepsText(found.times));
+    if (!found.blocks.empty()) fmt::print("blocks: {}\n", fmt::join(found.blocks, ", "));
     fmt::print("fields:{}\n", all.fields.empty() ? " none" : "");
     for (const mesh::FieldStatistics& field : all.fields) printField(field);
     const auto defects = defectLines(found.report);

@@ -48,6 +48,47 @@ projection::Slice parseSlice(const std::string& option, const std::string& text)
     return {{v[0], v[1], v[2]}, normal / largest};
 }
 
+namespace {
+
+/// The part as a surface.
+void addBoundaryOptions(CLI::App& command, OpaqueOptions& options) {
+    projection::BoundaryLook& look = options.boundaryLook;
+    command.add_flag(
+        "--boundary", options.boundary,
+        "the mesh's outer faces and what clipping planes cut, as a surface in the colours of the scalar, lit "
+        "(by a head light if no other is given)");
+    addNumber<double>(
+        command, "--boundary-opacity", look.opacity, [](double value) { return value > 0.0 && value <= 1.0; },
+        "a number above 0, up to 1", "below 1 the volume within shows through the boundary");
+    addParsed(command, "--boundary-color", look.color, parseColor,
+              "one colour for the boundary instead of the scalar's", "r,g,b");
+    addNumber<double>(
+        command, "--feature-angle", look.featureAngle, [](double value) { return value >= 0.0 && value <= 180.0; },
+        "degrees from 0 to 180", "edges of the boundary that are bent by less look round, degrees, 30");
+    command.add_flag_callback(
+        "--edges", [&look] { look.edges.emplace(look.edges.value_or(projection::SurfaceEdges{})); },
+        "lines along the edges of the boundary's triangles");
+    command
+        .add_option_function<std::string>(
+            "--edge-color",
+            [&look](const std::string& text) {
+                if (!look.edges) look.edges.emplace();
+                look.edges->color = parseColor("--edge-color", text);
+            },
+            "of these lines, 0.1,0.1,0.1")
+        ->type_name("r,g,b");
+}
+
+void checkBoundary(const OpaqueOptions& options) {
+    if (!options.boundary &&
+        (options.boundaryLook.edges || options.boundaryLook.color || options.boundaryLook.opacity < 1.0))
+        throw std::runtime_error(
+            "--edges, --edge-color, --boundary-opacity and --boundary-color: of the boundary, which is not drawn; give "
+            "--boundary, or leave them out");
+}
+
+}  // namespace
+
 void addOpaqueOptions(CLI::App& command, OpaqueOptions& options) {
     addRepeated(
         command, "--slice", "px,py,pz,nx,ny,nz",
@@ -71,7 +112,8 @@ void addOpaqueOptions(CLI::App& command, OpaqueOptions& options) {
     addRepeated(
         command, "--surface-color", "r,g,b", "colour of the surfaces, 0.8,0.8,0.8; one for all or one for each",
         [&options](const std::string& text) { options.surfaceColors.push_back(parseColor("--surface-color", text)); });
-    command.add_flag("--surface-flat", options.flat, "surfaces in their colour, without light");
+    command.add_flag("--surface-flat", options.flat, "surfaces and the boundary in their colour, without light");
+    addBoundaryOptions(command, options);
 }
 
 projection::OpaqueObjects readOpaqueObjects(const OpaqueOptions& options) {
@@ -85,6 +127,7 @@ projection::OpaqueObjects readOpaqueObjects(const OpaqueOptions& options) {
             fmt::format("--slice-opacity: {} for {} slices; give one, or one for each --slice", opacities, slices));
     if (options.isolines && slices == 0)
         throw std::runtime_error("--isolines: there is nothing to draw them on; give --slice");
+    checkBoundary(options);
     projection::OpaqueObjects objects;
     objects.isolines = options.lines;
     objects.slices = options.slices;

@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <projection/opaque/boundary_surface.h>
 #include <projection/opaque/opaque_objects.h>
 
 namespace CLI {
@@ -25,6 +26,8 @@ struct OpaqueOptions {
     std::vector<std::string> surfaces;      ///< files
     std::vector<glm::dvec3> surfaceColors;  ///< none, one for all, or one for each
     bool flat = false;                      ///< surfaces without light
+    bool boundary = false;                  ///< the mesh's own boundary
+    projection::BoundaryLook boundaryLook;
 };
 
 /// "px,py,pz,nx,ny,nz"; the normal becomes one whose largest component is 1.

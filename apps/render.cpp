@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // tetralux render: one image, or an orbit of them.
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -14,10 +16,12 @@
 #include <nlohmann/json.hpp>
 
 #include <apps/commands.h>
+#include <apps/film/film_writer.h>
 #include <apps/progress.h>
 #include <apps/render_options.h>
 #include <apps/render_report.h>
 #include <apps/render_scene.h>
+#include <apps/report/warning.h>
 #include <apps/report_text.h>
 #include <projection/image/image.h>
 #include <projection/image/whole_file.h>
@@ -35,26 +39,67 @@ std::string outputPath(const RenderOptions& options, const std::string& addition
     return path.string();
 }
 
-/// OUT.png, or OUT_0000.png and so on.
-std::vector<std::string> outputPaths(const RenderOptions& options) {
-    if (!options.frames) return {options.output};
+/// Standard output in the place of a file.
+bool isStandardOutput(const std::string& path) {
+    return path == "-";
+}
+
+void writeOut(const std::string& bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
+        throw std::runtime_error("standard output: cannot be written; see where it goes");
+}
+
+void put(const projection::Image& image, const std::string& path, const projection::PngOutput& png) {
+    if (isStandardOutput(path))
+        writeOut(projection::imageFile(image, "-.png", png));
+    else
+        projection::writeImage(image, path, png);
+}
+
+bool makesMany(const RenderOptions& options) {
+    return options.frames.has_value() || !options.time.times.empty();
+}
+
+/// OUT.png, or OUT_0000.png and so on; a film is one file.
+std::vector<std::string> outputPaths(const RenderOptions& options, std::size_t count) {
+    if (!makesMany(options) || isFilm(options.output)) return {options.output};
     std::vector<std::string> paths;
-    for (int i = 0; i < *options.frames; ++i) paths.push_back(outputPath(options, fmt::format("_{:04}", i)));
+    for (std::size_t i = 0; i < count; ++i) paths.push_back(outputPath(options, fmt::format("_{:04}", i)));
     return paths;
 }
 
 /// OUT_preview.png; empty when none is asked for.
 std::string previewPath(const RenderOptions& options) {
     if (options.previewMilliseconds <= 0.0) return "";
-    if (options.frames)
-        throw std::runtime_error("--preview: goes with one picture, not with --frames; leave one of them out");
+    if (makesMany(options))
+        throw std::runtime_error(
+            "--preview: goes with one picture, not with --frames or --times; leave one of them out");
     return outputPath(options, "_preview");
 }
 
-/// Everything that could keep the results from being written must show before the work, not after.
-void checkOutputs(const RenderOptions& options, const std::vector<std::string>& paths) {
-    for (const std::string& path : paths) projection::checkImagePath(path);
-    if (!options.report.empty()) projection::checkWritable(options.report);
+/// What goes together, and everything that could keep the results from being written, shows before the work.
+void checkOutputs(const RenderOptions& options) {
+    if (options.frames && !options.time.times.empty())
+        throw std::runtime_error("--times and --frames: each says which pictures there are; give one of them");
+    if (options.read.time && !options.time.times.empty())
+        throw std::runtime_error("--times and --time: each says which step is drawn; give one of them");
+    const bool toOutput = isStandardOutput(options.output);
+    if (toOutput && (makesMany(options) || options.previewMilliseconds > 0.0 || isStandardOutput(options.report)))
+        throw std::runtime_error(
+            "-o -: standard output holds one picture; give files for the others, or leave them out");
+    if (toOutput) {
+        // there is no file to look after
+    } else if (isFilm(options.output)) {
+        if (!makesMany(options))
+            throw std::runtime_error(
+                fmt::format("{}: a film needs pictures; give --frames N or --times all, or OUT.png", options.output));
+        checkFilm(options.output);
+    } else {
+        for (const std::string& path :
+             outputPaths(options, options.frames ? static_cast<std::size_t>(*options.frames) : 1))
+            projection::checkImagePath(path);
+    }
+    if (!options.report.empty() && !isStandardOutput(options.report)) projection::checkWritable(options.report);
 }
 
 void tellPreview(const std::string& path, const RenderOptions& options, const projection::Preview& preview) {
@@ -76,10 +121,10 @@ std::string verificationLine(const projection::Verification& found) {
 void warnOfTable(const projection::Engine& engine) {
     const preint::PreintegrationTable* table = engine.table();
     if (table == nullptr || table->measuredError <= engine.wantedTableError()) return;
-    fmt::print(stderr, "tetralux: --table-error {:g}: a table of this transfer function has an error of {:.2g}; {}\n",
-               engine.wantedTableError(), table->measuredError,
-               engine.walksNodes() ? "every segment is walked along node by node instead, which takes longer"
-                                   : "leave --table-size out");
+    warn(fmt::format("--table-error {:g}: a table of this transfer function has an error of {:.2g}; {}",
+                     engine.wantedTableError(), table->measuredError,
+                     engine.walksNodes() ? "every segment is walked along node by node instead, which takes longer"
+                                         : "leave --table-size out"));
 }
 
 /// What --max-error has to say of a picture that it cannot vouch for.
@@ -96,6 +141,28 @@ std::string errorTooLargeLine(double maxError, const projection::Verification& f
         maxError, found.rmse, found.max, found.pixels, found.rmseBound, more);
 }
 
+/// Which step of a series was drawn; of several the range.
+std::string stepText(const RenderOptions& options, const RenderRecord& record) {
+    if (!record.step || !options.time.times.empty()) return "";
+    return fmt::format("time {:.6g} (step {} of {}, from 0), ", record.step->time, record.step->number,
+                       record.step->count);
+}
+
+/// A time that is far from any step: the nearest was drawn.
+void warnOfTime(const RenderOptions& options, const SceneRenderer& renderer) {
+    const std::vector<double>& times = renderer.times();
+    if (!options.read.time) return;
+    if (times.empty()) {
+        warn(fmt::format("--time {:g}: {} has no steps; it is drawn as it is", *options.read.time, options.source));
+        return;
+    }
+    const auto [low, high] = std::minmax_element(times.begin(), times.end());
+    const double slack = 1e-6 * (*high - *low);
+    if (*options.read.time < *low - slack || *options.read.time > *high + slack)
+        warn(fmt::format("--time {:g}: outside the series, which goes from {:g} to {:g}; drawn is {:g}",
+                         *options.read.time, *low, *high, renderer.record().step->time));
+}
+
 void tell(const RenderOptions& options, const std::vector<std::string>& paths, const SceneRenderer& renderer) {
     const RenderRecord& record = renderer.record();
     for (const std::string& note : record.mesh.notes) fmt::print("{}: {}\n", options.source, note);
@@ -108,37 +175,77 @@ void tell(const RenderOptions& options, const std::vector<std::string>& paths, c
     const projection::FrameReport& first = record.frames.front();
     double total = 0.0;
     for (const projection::FrameReport& frame : record.frames) total += frame.frameMilliseconds;
-    fmt::print("{}{}: {}x{}, {} of {} tetrahedra, {} ({}), {:.0f} ms{}\n", paths.front(),
-               paths.size() > 1 ? " to " + paths.back() : "", record.camera.width, record.camera.height,
-               first.cellsDrawn, record.tetrahedra, renderer.engine().name(), renderer.engine().renderer(),
-               total / static_cast<double>(record.frames.size()), paths.size() > 1 ? " a frame" : "");
+    const bool many = record.frames.size() > 1;
+    fmt::print("{}{}: {}{}x{}, {}{} of {} tetrahedra, {} ({}), {:.0f} ms{}\n", paths.front(),
+               paths.size() > 1 ? " to " + paths.back() : "",
+               many ? fmt::format("{} pictures, ", record.frames.size()) : "", record.camera.width,
+               record.camera.height, stepText(options, record), first.cellsDrawn, record.tetrahedra,
+               renderer.engine().name(), renderer.engine().renderer(),
+               total / static_cast<double>(record.frames.size()), many ? " a frame" : "");
 }
 
-int render(const RenderOptions& options) {
+/// Draws and writes every picture that is asked for. \returns the files.
+std::vector<std::string> drawAll(const RenderOptions& options, SceneRenderer& renderer) {
+    std::vector<std::size_t> steps;
+    if (!options.time.times.empty()) {
+        try {
+            steps = chosenSteps(options.time, renderer.times().size());
+        } catch (const std::runtime_error& error) {
+            throw std::runtime_error(fmt::format("{}: {}", options.source, error.what()));
+        }
+    }
+    const std::size_t count = !steps.empty() ? steps.size() : static_cast<std::size_t>(options.frames.value_or(1));
+    const std::vector<std::string> paths = outputPaths(options, count);
+    std::optional<FilmWriter> film;
+    if (isFilm(options.output))
+        film.emplace(options.output, options.camera.size.x, options.camera.size.y, options.time.framesPerSecond);
+    ProgressBar progress(static_cast<int>(count), count > 1 && !options.quiet);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!steps.empty()) renderer.moveTo(steps[i]);
+        const double turn = options.frames ? static_cast<double>(i) / static_cast<double>(count) : 0.0;
+        const projection::Image image = renderer.render(turn);
+        if (film)
+            film->add(image);
+        else
+            put(image, paths[i], options.png);
+        progress.show(static_cast<int>(i) + 1);
+    }
+    if (film) film->finish();
+    return paths;
+}
+
+int render(const RenderOptions& given) {
+    RenderOptions options = given;
+    options.quiet = options.quiet || isStandardOutput(options.output) || isStandardOutput(options.report);
     std::optional<tbb::global_control> threadLimit;
     if (options.settings.threads > 0)
         threadLimit.emplace(tbb::global_control::max_allowed_parallelism,
                             static_cast<std::size_t>(options.settings.threads));
 
-    const std::vector<std::string> paths = outputPaths(options);
+    checkOutputs(options);
     const std::string preview = previewPath(options);
-    checkOutputs(options, paths);
     if (!preview.empty()) projection::checkImagePath(preview);
     SceneRenderer renderer(options);
     if (!preview.empty()) {
-        projection::writeImage(renderer.preview(options.previewMilliseconds), preview);
+        projection::writeImage(renderer.preview(options.previewMilliseconds), preview, options.png);
         if (!options.quiet) tellPreview(preview, options, *renderer.record().preview);
     }
-    {
-        ProgressBar progress(static_cast<int>(paths.size()), paths.size() > 1 && !options.quiet);
-        for (std::size_t i = 0; i < paths.size(); ++i) {
-            projection::writeImage(renderer.render(static_cast<double>(i) / static_cast<double>(paths.size())),
-                                   paths[i]);
-            progress.show(static_cast<int>(i) + 1);
-        }
+    const std::vector<std::string> paths = drawAll(options, renderer);
+    if (!options.report.empty()) {
+        const std::string report = jsonText(renderReport(options, renderer));
+        if (isStandardOutput(options.report))
+            writeOut(report);
+        else
+            projection::writeWholeFile(options.report, report);
     }
-    if (!options.report.empty()) projection::writeWholeFile(options.report, jsonText(renderReport(options, renderer)));
     if (!options.quiet) tell(options, paths, renderer);
+    if (!renderer.record().emptyBecause.empty())
+        warn(fmt::format("{}: nothing shows in {}: {}", options.source,
+                         renderer.record().frames.size() > 1 ? "a frame" : "the picture",
+                         renderer.record().emptyBecause));
+    warnOfTime(options, renderer);
+    if (const std::string advice = renderer.advice(); !advice.empty())
+        warn(fmt::format("{}: {}", options.source, advice));
     warnOfTable(renderer.engine());
     if (withinMaxError(options, renderer.record())) return 0;
     fmt::print(stderr, "tetralux: {}\n", errorTooLargeLine(*options.maxError, *renderer.record().verification));

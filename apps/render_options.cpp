@@ -14,6 +14,7 @@
 #include <apps/add_option.h>
 #include <apps/light_options.h>
 #include <apps/option_values.h>
+#include <apps/options/part_options.h>
 #include <apps/read_options.h>
 #include <projection/frame/engine_registry.h>
 #include <projection/frame/verification.h>
@@ -33,6 +34,7 @@ void addMeshOptions(CLI::App& command, RenderOptions& options) {
             "beside one on points of that name")
         ->type_name("NAME");
     addReadOptions(command, options.read);
+    addPartOptions(command, options.shaping);
     command.add_flag("--check", options.checkInterfaces,
                      "also of meshes of millions of cells: tell whether cells overlap or do not fit together");
 }
@@ -40,8 +42,20 @@ void addMeshOptions(CLI::App& command, RenderOptions& options) {
 void addPictureOptions(CLI::App& command, RenderOptions& options) {
     addColorOptions(command, options.colors);
     addParsed(command, "--mode", options.settings.mode, parseMode, modeNames(), "MODE");
-    addParsed(command, "--background", options.background, parseBackground,
-              "colour put under the picture last, or none", "r,g,b");
+    addParsed(
+        command, "--background", options.background,
+        [&options](const std::string& option, const std::string& text) {
+            const auto background = parseBackground(option, text);
+            options.png.alpha = !background;
+            return background;
+        },
+        "colour put under the picture last; none: nothing, and a PNG has alpha; default: black under a PNG, nothing "
+        "under "
+        "an EXR",
+        "r,g,b|none");
+    addNumber<int>(
+        command, "--bits", options.png.bits, [](double value) { return value == 8.0 || value == 16.0; }, "8 or 16",
+        "of each channel of a PNG, 8 or 16");
 }
 
 void addLight(CLI::App& command, RenderOptions& options) {
@@ -63,21 +77,13 @@ void addShape(CLI::App& command, RenderOptions& options) {
     addShapeOptions(command, options.shape, options.settings);
 }
 
-void addCameraOptions(CLI::App& command, RenderOptions& options) {
-    addParsed(command, "--size", options.size, parseSize, "pixels, 512x512", "WxH");
+void addViewOptions(CLI::App& command, RenderOptions& options) {
+    addCameraOptions(command, options.camera);
     addNumber<int>(
         command, "--samples", options.settings.samples, [](double value) { return value >= 1.0 && value <= 64.0; },
         "a whole number from 1 to 64",
         "anti-aliasing: so many rays per pixel, on a regular grid (the next square number: 4, 9, 16 … 64), are "
         "averaged");
-    addParsed(command, "--eye", options.eye, parseVector, "where from; default: a view that holds the mesh", "x,y,z");
-    addParsed(command, "--target", options.target, parseVector, "where to; default: the mesh's centre", "x,y,z");
-    addParsed(command, "--up", options.up, parseVector, "what is up; default: 0,1,0", "x,y,z");
-    addNumber<double>(
-        command, "--fov", options.fovDegrees, [](double value) { return value > 0.0 && value < 180.0; },
-        "degrees between 0 and 180", "vertical field of view in degrees, 30");
-    addNumber<double>(command, "--height", options.orthographicHeight, positive, "a length in mesh units",
-                      "orthographic view of this height in mesh units");
 }
 
 void addMachineOptions(CLI::App& command, RenderOptions& options) {
@@ -117,12 +123,17 @@ void addMachineOptions(CLI::App& command, RenderOptions& options) {
 }
 
 void addOutputOptions(CLI::App& command, RenderOptions& options) {
-    command.add_option("-o,--output", options.output, "picture to write: .png or .exr (32-bit float RGBA)")
+    command
+        .add_option(
+            "-o,--output", options.output,
+            "picture to write, - for standard output (PNG): .png or .exr (32-bit float RGBA), or with --frames or "
+            "--times a film: .mp4 .mov .mkv .webm .avi .gif (by ffmpeg)")
         ->type_name("FILE")
         ->required();
     addNumber<int>(
         command, "--frames", options.frames, [](double value) { return value >= 1.0 && value <= 1e6; },
         "a whole number from 1", "an orbit of so many pictures: OUT_0000.png, OUT_0001.png, ...");
+    addTimeOptions(command, options.time);
     addNumber<double>(
         command, "--preview", options.previewMilliseconds, positive, "milliseconds above 0",
         "first a quick picture, OUT_preview.png, whose frame takes no longer than so many milliseconds: fewer "
@@ -137,7 +148,8 @@ void addOutputOptions(CLI::App& command, RenderOptions& options) {
     addNumber<double>(command, "--max-error", options.maxError, notNegative, "a number from 0",
                       "end with status 3 unless the rmse of all pixels is vouched for (95 % bound of --verify; without "
                       "it, as many pixels are computed again as that takes: nearly all)");
-    command.add_option("--report", options.report, "JSON file with cells, times and memory")->type_name("FILE.json");
+    command.add_option("--report", options.report, "JSON file with cells, times and memory; -: standard output")
+        ->type_name("FILE.json");
     command.add_flag("--quiet", options.quiet, "nothing on standard output, no progress bar");
 }
 
@@ -155,7 +167,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
         {"Shape", addShape},
         {"In the volume", [](CLI::App& c, RenderOptions& o) { addOpaqueOptions(c, o.opaque); }},
         {"Annotation", [](CLI::App& c, RenderOptions& o) { addAnnotationOptions(c, o.annotation); }},
-        {"Camera", addCameraOptions},
+        {"Camera", addViewOptions},
         {"Machine", addMachineOptions}};
     for (const auto& [title, add] : sections) {
         command.option_defaults()->group(title);
@@ -163,7 +175,8 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
     }
     command.parse_complete_callback([&options] {
         if (options.maxError && options.verifiedPixels == 0) {
-            const auto pixels = static_cast<std::size_t>(options.size.x) * static_cast<std::size_t>(options.size.y);
+            const auto pixels =
+                static_cast<std::size_t>(options.camera.size.x) * static_cast<std::size_t>(options.camera.size.y);
             const std::size_t needed = projection::pixelsToVouchFor(*options.maxError, pixels);
             options.verifiedPixels = std::max(static_cast<int>(needed), usualVerifiedPixels);
         }

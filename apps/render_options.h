@@ -11,11 +11,15 @@
 
 #include <apps/annotation.h>
 #include <apps/opaque_options.h>
+#include <apps/options/camera_options.h>
 #include <apps/options/color_options.h>
+#include <apps/options/time_options.h>
 #include <apps/shape_options.h>
 #include <mesh/io/read_mesh.h>
+#include <mesh/soup/mesh_shaping.h>
 #include <projection/core/engine.h>
 #include <projection/core/scene.h>
+#include <projection/image/image_output.h>
 
 namespace CLI {
 class App;
@@ -27,6 +31,8 @@ struct RenderOptions {
     std::string source;  ///< mesh file or generated field
     std::string scalar;  ///< empty: the first field
     mesh::ReadOptions read;
+    mesh::MeshShaping shaping;
+    TimeOptions time;
     bool checkInterfaces = false;  ///< also where it takes long: whether cells overlap or do not fit together
     ColorOptions colors;
     projection::RenderSettings settings;
@@ -35,15 +41,13 @@ struct RenderOptions {
     ShapeOptions shape;
     projection::EngineOptions engine;
 
-    glm::ivec2 size{512, 512};                  ///< pixels
-    std::optional<glm::dvec3> eye, target, up;  ///< mesh units; what is not given is found from the mesh
-    double fovDegrees = 30.0;
-    double orthographicHeight = 0.0;  ///< mesh units; 0: perspective
+    CameraOptions camera;
 
     std::string output;                                  ///< .png or .exr
     std::optional<int> frames;                           ///< an orbit of so many images
     double previewMilliseconds = 0.0;                    ///< > 0: a quick picture in this time comes first
     std::optional<std::optional<glm::vec3>> background;  ///< not given: what suits the mode
+    projection::PngOutput png;
     int verifiedPixels = 0;          ///< so many pixels of each frame are computed again by the reference
     std::optional<double> maxError;  ///< largest rmse that may be found so, its 95 % bound that is
     std::string keptAnisotropy;      ///< .vtu that the mesh is written to with its anisotropy; empty: none

@@ -70,12 +70,8 @@ json tableJson(const preint::PreintegrationTable& table, const projection::Engin
 }
 
 json verificationJson(const projection::Verification& found) {
-    return {{"pixels", found.pixels},
-            {"unseen", found.unseen()},
-            {"rmse", found.rmse},
-            {"rmse_bound", found.rmseBound},
-            {"max", found.max},
-            {"unseen_share", found.unseenShare()}};
+    return {{"pixels", found.pixels},        {"unseen", found.unseen()}, {"rmse", found.rmse},
+            {"rmse_bound", found.rmseBound}, {"max", found.max},         {"unseen_share", found.unseenShare()}};
 }
 
 json previewJson(const projection::Preview& preview, double promised) {
@@ -159,6 +155,8 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
         {"pixels", {{"repaired", repaired}, {"wrong", wrong}}},
         {"peak_memory_bytes", peakMemoryBytes()},
     };
+    if (record.step)
+        report["time"] = {{"drawn", record.step->time}, {"step", record.step->number}, {"steps", renderer.times()}};
     if (record.mostContributions) report["contributions"] = {{"most", *record.mostContributions}};
     if (!first.dataPath.empty()) report["gl"] = glJson(record);
     if (record.verification) report["verification"] = verificationJson(*record.verification);

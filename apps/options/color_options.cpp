@@ -45,19 +45,20 @@ glm::dvec2 parseRange(const std::string& option, const std::string& text) {
     return {ends[0], ends[1]};
 }
 
-/// One of --range and --window, which say the same in two ways.
-void addRange(CLI::App& command, const std::string& name, ColorOptions& options,
-              glm::dvec2 (*parse)(const std::string&, const std::string&), const std::string& help,
-              const std::string& form) {
-    addParsed(
-        command, name, options.words.range,
-        [&options, parse](const std::string& option, const std::string& text) {
-            if (options.words.range)
-                throw std::runtime_error(
-                    fmt::format("{}: the range is given already; leave --range or --window out", option));
-            return parse(option, text);
-        },
-        help, form);
+void addRangeOption(CLI::App& command, ColorOptions& options) {
+    command
+        .add_option_function<std::string>(
+            "--range",
+            [&options](const std::string& text) {
+                if (options.words.range)
+                    throw std::runtime_error("--range: the range is given already; leave --range or --window out");
+                options.rangeOfAllSteps = text == "all";
+                if (!options.rangeOfAllSteps) options.words.range = parseRange("--range", text);
+            },
+            "scalars from the first to the last colour; all: those of every step of a series; default: the range of "
+            "the "
+            "field in the step that is drawn")
+        ->type_name("low,high|all");
 }
 
 /// A number scales, anything else is a word.
@@ -114,10 +115,15 @@ void addColorOptions(CLI::App& command, ColorOptions& options) {
         ->allow_extra_args(false);
     addNumber<double>(command, "--opacity-distance", options.words.unitDistance, positive, "a length above 0",
                       "length over which the opacity of a word counts, mesh units; default: 1/50 of the diagonal");
-    addRange(command, "--range", options, parseRange,
-             "scalars from the first to the last colour; default: the field's range", "low,high");
-    addRange(command, "--window", options, parseWindow,
-             "the same by its centre and width; dicom: as DICOM defines it for whole numbers", "[dicom:]centre,width");
+    addRangeOption(command, options);
+    addParsed(
+        command, "--window", options.words.range,
+        [&options](const std::string& option, const std::string& text) {
+            if (options.words.range || options.rangeOfAllSteps)
+                throw std::runtime_error("--window: the range is given already; leave --range or --window out");
+            return parseWindow(option, text);
+        },
+        "the same by its centre and width; dicom: as DICOM defines it for whole numbers", "[dicom:]centre,width");
     command.add_flag("--log", options.words.logScale, "colours and opacity over the logarithm of the scalar");
 }
 

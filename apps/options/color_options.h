@@ -16,6 +16,7 @@ namespace tetralux::apps {
 struct ColorOptions {
     std::string transferFunction;  ///< file or colour map; empty: the default
     preint::FunctionWords words;   ///< what else is said of it
+    bool rangeOfAllSteps = false;  ///< its range is that of the field over all steps of a series
 };
 
 void addColorOptions(CLI::App& command, ColorOptions& options);

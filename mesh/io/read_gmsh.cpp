@@ -112,8 +112,24 @@ private:
             parseView(Association::Point);
         } else if (section == "$ElementData") {
             parseView(Association::Cell);
+        } else if (section == "$PhysicalNames") {
+            parsePhysicalNames();
         }
         endSection((section == "$NOD" || section == "$ELM" ? "$END" : "$End") + section.substr(1));
+    }
+
+    /// Lines of dimension, number and name in quotes.
+    void parsePhysicalNames() {
+        const std::size_t count = scan_.count("the number of physical names", 6);
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::int64_t dimension = scan_.integer("the dimension of a physical group");
+            const std::int64_t number = scan_.integer("the number of a physical group");
+            const std::string_view rest = scan_.restOfLine();
+            const std::size_t open = rest.find('"'), close = rest.rfind('"');
+            if (dimension == 3 && open != std::string_view::npos && close > open)
+                soup_.blockNames.push_back(
+                    {"physical", static_cast<double>(number), std::string(rest.substr(open + 1, close - open - 1))});
+        }
     }
 
     // One number, in whichever way the file is written. Counts and tags are 4 bytes in version 2 and 8 in version 4.

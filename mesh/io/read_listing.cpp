@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <tuple>
@@ -19,6 +20,7 @@
 #include <mesh/io/number_text.h>
 #include <mesh/io/xml_tags.h>
 #include <mesh/soup/append_soup.h>
+#include <mesh/soup/block_names.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -175,7 +177,9 @@ private:
     }
 };
 
-void appendFile(const std::string& source, const std::string& name, const ReadOptions& options, CellSoup& soup) {
+void appendFile(const std::string& source, const Entry& entry, const ReadOptions& options, CellSoup& soup,
+                std::optional<double> block = {}) {
+    const std::string& name = entry.file;
     const std::string file = (std::filesystem::path(source).parent_path() / name).string();
     std::error_code failed;
     if (!std::filesystem::is_regular_file(file, failed)) {
@@ -183,7 +187,9 @@ void appendFile(const std::string& source, const std::string& name, const ReadOp
             fmt::format("{}: names {}, which is not there; put it there, or name the file that is", source, name));
     }
     if (const MeshFormat* const format = formatOf(file)) {
-        appendSoup(soup, format->read(file, options));
+        CellSoup part = format->read(file, options);
+        if (block) nameBlock(part, *block, std::get<2>(entry.part));
+        appendSoup(soup, std::move(part));
     } else {
         soup.notes.push_back(fmt::format("{} is no mesh and is left out", name));
     }
@@ -199,8 +205,13 @@ CellSoup readListing(const std::string& source, const ReadOptions& options) {
     std::vector<Entry> entries = readEntries(source, listing);
     CellSoup soup;
     if (!listing.isSeries) {
+        const bool named = entries.size() > 1 && std::any_of(entries.begin(), entries.end(), [](const Entry& entry) {
+                               return !std::get<2>(entry.part).empty();
+                           });
+        double number = 0.0;
         for (const Entry& entry : entries) {
-            appendFile(source, entry.file, options, soup);
+            ++number;
+            appendFile(source, entry, options, soup, named ? std::optional(number) : std::nullopt);
         }
         return soup;
     }
@@ -213,7 +224,7 @@ CellSoup readListing(const std::string& source, const ReadOptions& options) {
     const double chosen = nearestTime(steps, options.time);
     for (const Entry& entry : entries) {
         if (entry.time == chosen) {
-            appendFile(source, entry.file, {}, soup);
+            appendFile(source, entry, {}, soup);
         }
     }
     soup.times = steps;

@@ -71,13 +71,34 @@ bool readStrings(int file, std::vector<std::string>& strings) {
     return good;
 }
 
+bool writeNames(int file, const std::vector<BlockName>& names) {
+    std::vector<std::string> fields, texts;
+    std::vector<double> numbers;
+    for (const BlockName& one : names) {
+        fields.push_back(one.field);
+        texts.push_back(one.name);
+        numbers.push_back(one.number);
+    }
+    return writeStrings(file, fields) && writeStrings(file, texts) && writeArray(file, numbers);
+}
+
+bool readNames(int file, std::vector<BlockName>& names) {
+    std::vector<std::string> fields, texts;
+    std::vector<double> numbers;
+    if (!readStrings(file, fields) || !readStrings(file, texts) || !readArray(file, numbers) ||
+        fields.size() != texts.size() || fields.size() != numbers.size())
+        return false;
+    for (std::size_t i = 0; i < fields.size(); ++i) names.push_back({fields[i], numbers[i], texts[i]});
+    return true;
+}
+
 }  // namespace
 
 bool writeSoup(int file, const CellSoup& soup) {
     bool good = writeArray(file, soup.points) && writeArray(file, soup.types) && writeArray(file, soup.offsets) &&
                 writeArray(file, soup.connectivity) && writeArray(file, soup.faceOffsets) &&
                 writeArray(file, soup.faceStream) && writeArray(file, soup.hidden) && writeArray(file, soup.times) &&
-                writeArray(file, soup.tetrahedra) && writeStrings(file, soup.notes);
+                writeArray(file, soup.tetrahedra) && writeStrings(file, soup.notes) && writeNames(file, soup.blockNames);
     const std::uint64_t fields = soup.fields.size();
     good = good && writeAll(file, &fields, sizeof fields);
     for (const Field& field : soup.fields) {
@@ -94,7 +115,7 @@ bool readSoup(int file, CellSoup& soup) {
     bool good = readArray(file, soup.points) && readArray(file, soup.types) && readArray(file, soup.offsets) &&
                 readArray(file, soup.connectivity) && readArray(file, soup.faceOffsets) &&
                 readArray(file, soup.faceStream) && readArray(file, soup.hidden) && readArray(file, soup.times) &&
-                readArray(file, soup.tetrahedra) && readStrings(file, soup.notes) &&
+                readArray(file, soup.tetrahedra) && readStrings(file, soup.notes) && readNames(file, soup.blockNames) &&
                 readAll(file, &fields, sizeof fields);
     for (std::uint64_t i = 0; good && i < fields; ++i) {
         Field field;

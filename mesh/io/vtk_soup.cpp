@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <vtkCellArray.h>
@@ -14,6 +15,7 @@
 #include <vtkDataSetAttributes.h>
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
+#include <vtkInformation.h>
 #include <vtkMatrix4x4.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -26,6 +28,7 @@
 
 #include <mesh/io/bookkeeping_names.h>
 #include <mesh/soup/append_soup.h>
+#include <mesh/soup/block_names.h>
 #include <mesh/soup/cell_types.h>
 #include <mesh/soup/grid_soup.h>
 
@@ -271,6 +274,30 @@ CellSoup soupFromDataSet(vtkDataSet* data) {
     return soup;
 }
 
+std::string blockName(vtkCompositeDataIterator* leaf) {
+    if (leaf->HasCurrentMetaData() == 0 || leaf->GetCurrentMetaData()->Has(vtkCompositeDataSet::NAME()) == 0) return "";
+    const char* const name = leaf->GetCurrentMetaData()->Get(vtkCompositeDataSet::NAME());
+    return name != nullptr ? name : "";
+}
+
+/// All leaves with cells, one behind the other; of several each is a block with the name that it has there.
+CellSoup soupFromBlocks(vtkCompositeDataSet* composite) {
+    std::vector<std::pair<vtkDataSet*, std::string>> parts;
+    const auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem()) {
+        auto* const part = vtkDataSet::SafeDownCast(leaf->GetCurrentDataObject());
+        if (part != nullptr && part->GetNumberOfCells() > 0) parts.emplace_back(part, blockName(leaf));
+    }
+    CellSoup soup;
+    double number = 0.0;
+    for (const auto& [part, name] : parts) {
+        CellSoup block = soupFromDataSet(part);
+        if (parts.size() > 1) nameBlock(block, ++number, name);
+        appendSoup(soup, std::move(block));
+    }
+    return soup;
+}
+
 }  // namespace
 
 CellSoup soupFromVtk(vtkDataObject* data) {
@@ -278,15 +305,7 @@ CellSoup soupFromVtk(vtkDataObject* data) {
         throw std::runtime_error("holds no data; write the file again");
     }
     if (auto* composite = vtkCompositeDataSet::SafeDownCast(data)) {
-        CellSoup soup;
-        const auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-        for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem()) {
-            if (auto* part = vtkDataSet::SafeDownCast(leaf->GetCurrentDataObject());
-                part != nullptr && part->GetNumberOfCells() > 0) {
-                appendSoup(soup, soupFromDataSet(part));
-            }
-        }
-        return soup;
+        return soupFromBlocks(composite);
     }
     if (auto* single = vtkDataSet::SafeDownCast(data)) {
         return soupFromDataSet(single);

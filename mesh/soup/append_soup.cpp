@@ -89,6 +89,9 @@ void appendSoup(CellSoup& soup, CellSoup&& other) {
         return;
     }
     soup.notes.insert(soup.notes.end(), other.notes.begin(), other.notes.end());
+    for (BlockName& name : other.blockNames)
+        if (std::find(soup.blockNames.begin(), soup.blockNames.end(), name) == soup.blockNames.end())
+            soup.blockNames.push_back(std::move(name));
     const std::uint32_t shift = static_cast<std::uint32_t>(soup.points.size());
     if (!soup.tetrahedra.empty() && !other.tetrahedra.empty()) {
         appendTetrahedra(soup, std::move(other), shift);

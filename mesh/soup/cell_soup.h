@@ -14,6 +14,14 @@
 
 namespace tetralux::mesh {
 
+/// What the cells with `number` in the cell field `field` are called in the source: a block, zone, part or group.
+struct BlockName {
+    std::string field;
+    double number = 0.0;
+    std::string name;
+    bool operator==(const BlockName&) const = default;
+};
+
 /// Mixed cells in the numbering of VTK's cell types (`cell_types.h` names them). Nothing is promised: indices may
 /// be out of range, positions not finite, arrays of the wrong length.
 struct CellSoup {
@@ -34,7 +42,8 @@ struct CellSoup {
     std::vector<Field> fields;
     std::vector<std::uint8_t> hidden;  ///< 1 for a ghost or blanked cell; empty when there is none
     std::vector<double> times;         ///< of all steps, if the source is a series; the cells are those of one
-    std::vector<std::string> notes;    ///< what the reader chose or left out that its user should know, a line each
+    std::vector<BlockName> blockNames;
+    std::vector<std::string> notes;  ///< what the reader chose or left out that its user should know, a line each
 
     static constexpr std::uint32_t invalidPoint = 0xffffffffu;
     std::size_t cellCount() const { return tetrahedra.empty() ? types.size() : tetrahedra.size(); }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include <mesh/soup/cell_soup.h>
 #include <mesh/tet/mesh_report.h>
 #include <mesh/tet/tet_mesh.h>
 
@@ -34,7 +35,8 @@ inline ReadOptions isolatedReading() {
 struct ReadResult {
     TetMesh mesh;
     MeshReport report;
-    std::vector<double> times;  ///< of all steps, if the source is a series; the mesh is that of one
+    std::vector<double> times;          ///< of all steps, if the source is a series; the mesh is that of one
+    std::vector<BlockName> blockNames;  ///< what numbers in cell fields of the mesh are called
 };
 
 }  // namespace tetralux::mesh

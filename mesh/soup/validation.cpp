@@ -219,6 +219,7 @@ ReadResult tetMeshFromSoup(CellSoup soup, const ReadOptions& options) {
     ReadResult result;
     result.times = std::move(soup.times);
     result.report.notes = std::move(soup.notes);
+    result.blockNames = std::move(soup.blockNames);
     const std::size_t sourcePoints = soup.points.size();
     Decomposition decomposition = decompose(soup, options, result.report);
     // The common case, a sound mesh of tetrahedra, is spared the search.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <mesh/tet/plane_cut.h>
 
-#include <mesh/tet/mesh_cut.h>
-
 namespace tetralux::mesh {
 
 SurfaceMesh cutByPlane(const ScalarMesh& mesh, const glm::dvec3& point, const glm::dvec3& normal) {
-    const MeshCut cut = cutAtPlane(mesh.positions, mesh.cells, point, normal);
+    return surfaceOfCut(mesh, cutAtPlane(mesh.positions, mesh.cells, point, normal));
+}
+
+SurfaceMesh surfaceOfCut(const ScalarMesh& mesh, const MeshCut& cut) {
     SurfaceMesh surface;
     surface.association = mesh.association;
     surface.positions = cutPositions(cut, mesh.positions);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <mesh/tet/mesh_cut.h>
 #include <mesh/tet/surface_mesh.h>
 
 namespace tetralux::mesh {
@@ -10,5 +11,8 @@ namespace tetralux::mesh {
 /// triangle). Corners on one edge of the mesh are one point, so that the triangles fit without gaps. A plane that runs
 /// through faces, also those of the boundary, takes each of them once. Empty where the plane misses the mesh.
 SurfaceMesh cutByPlane(const ScalarMesh& mesh, const glm::dvec3& point, const glm::dvec3& normal);
+
+/// A cut with the mesh's scalar: at its points, or of the cells that its triangles come from.
+SurfaceMesh surfaceOfCut(const ScalarMesh& mesh, const MeshCut& cut);
 
 }  // namespace tetralux::mesh

@@ -309,6 +309,22 @@ void findRangeAndBounds(ScalarMesh& mesh, bool allPointsUsed) {
 
 }  // namespace
 
+ChosenScalar scalarOf(const TetMesh& mesh, const std::string& name) {
+    const std::size_t found = name.empty() ? firstField(mesh) : findField(mesh.fields, name);
+    if (found == mesh.fields.size() && (name.empty() || isCoordinateName(name))) {
+        TetMesh coordinates;
+        coordinates.positions = mesh.positions;
+        coordinates.cells = mesh.cells;
+        addCoordinateField(coordinates, name);
+        return {coordinates.fields.back().name, Association::Point, std::move(coordinates.fields.back().values)};
+    }
+    const Choice choice = chooseField(mesh, name);
+    Field field = mesh.fields[choice.field];
+    std::string title = fieldTitle(field, choice.component);
+    const Association association = field.association;
+    return {std::move(title), association, takeScalars(field, choice.component)};
+}
+
 ScalarSelection selectScalar(TetMesh&& mesh, const std::string& name, MeshReport& report) {
     const std::size_t found = name.empty() ? firstField(mesh) : findField(mesh.fields, name);
     if (found == mesh.fields.size() && (name.empty() || isCoordinateName(name))) {

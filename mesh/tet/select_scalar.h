@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <mesh/tet/mesh_report.h>
 #include <mesh/tet/tet_mesh.h>
@@ -19,6 +20,15 @@ struct ScalarSelection {
     std::string fieldName;             ///< the field taken, with component: "Velocity (magnitude)"
     std::uint64_t nonFiniteCells = 0;  ///< cells left out because a scalar of theirs is NaN, infinite or beyond 1e280
 };
+
+struct ChosenScalar {
+    std::string fieldName;  ///< with component: "Velocity (magnitude)"
+    Association association = Association::Point;
+    std::vector<double> values;  ///< one per point or cell
+};
+
+/// A copy of one scalar, by the names that selectScalar takes. \throws std::runtime_error listing the fields there are.
+ChosenScalar scalarOf(const TetMesh& mesh, const std::string& name);
 
 /// Takes one scalar of `mesh`: `name` alone (vectors by magnitude), "name:0", "name:x" or "name:xy" (a component, by the
 /// file's own name for it too), or "" for the first point field, else the first cell field (numbers of points or cells

@@ -14,8 +14,8 @@
 namespace tetralux::preint {
 namespace {
 
-/// Names that others use, folded, and whose they are. "rainbow" is ParaView's, from blue to red; matplotlib's map of that
-/// name has another one.
+/// Names that others use, folded, and whose they are. "rainbow" is ParaView's, from blue to red; matplotlib's map of
+/// that name has another one.
 struct Alias {
     const char* alias;
     const char* name;
@@ -73,8 +73,8 @@ struct Wanted {
 
 Wanted wantedMap(std::string_view name) {
     if (const ColorMapText* map = found(name)) return {map, false};
-    const bool reversed = name.size() > reversing.size() &&
-                          (name.ends_with(reversing) || name.ends_with("_R") || name.ends_with("-r"));
+    const bool reversed =
+        name.size() > reversing.size() && (name.ends_with(reversing) || name.ends_with("_R") || name.ends_with("-r"));
     if (!reversed) return {};
     return {found(name.substr(0, name.size() - reversing.size())), true};
 }
@@ -156,7 +156,10 @@ bool isColorMap(std::string_view name) {
 std::vector<std::string> colorMapNames() {
     std::vector<std::string> names;
     for (const auto* maps : {&matplotlibMaps(), &paraViewMaps()})
-        for (const ColorMapText& map : *maps) names.emplace_back(map.name);
+        for (const ColorMapText& map : *maps)  // the name alone is ParaView's
+            names.emplace_back(maps == &matplotlibMaps() && map.name == std::string_view("rainbow")
+                                   ? "rainbow (matplotlib)"
+                                   : map.name);
     return names;
 }
 

@@ -6,15 +6,16 @@
 #include <string>
 
 #include <projection/image/image.h>
+#include <projection/image/image_output.h>
 
 namespace tetralux::projection {
 
-/// 8-bit RGB over black, each channel rounded to the nearest of 0…255. \throws std::runtime_error
-std::string encodePng(const Image& image, const std::string& name);
+/// Each channel is rounded to the nearest of the steps that the bits allow. \throws std::runtime_error
+std::string encodePng(const Image& image, const std::string& name, const PngOutput& output);
 Image decodePng(const std::string& bytes, const std::string& name);
 
 /// 32-bit float RGBA, lossless. \throws std::runtime_error
-std::string encodeExr(const Image& image, const std::string& name);
+std::string encodeExr(const Image& image, const std::string& name, const PngOutput& ignored);
 Image decodeExr(const std::string& bytes, const std::string& name);
 
 }  // namespace tetralux::projection

@@ -73,7 +73,7 @@ Imf::FrameBuffer frameBuffer(const glm::vec4* pixels, int width, int left, int t
 
 }  // namespace
 
-std::string encodeExr(const Image& image, const std::string& name) {
+std::string encodeExr(const Image& image, const std::string& name, const PngOutput& /*ignored*/) {
     try {
         Imf::Header header(image.width, image.height);
         header.compression() = Imf::ZIP_COMPRESSION;

@@ -16,7 +16,7 @@ namespace {
 
 struct ImageFormat {
     const char* extension;
-    std::string (*encode)(const Image&, const std::string& name);
+    std::string (*encode)(const Image&, const std::string& name, const PngOutput& output);
     Image (*decode)(const std::string& bytes, const std::string& name);
     bool numbers;  ///< float
 };
@@ -43,8 +43,16 @@ void checkImagePath(const std::string& path) {
 }
 
 void writeImage(const Image& image, const std::string& path) {
+    writeImage(image, path, {});
+}
+
+void writeImage(const Image& image, const std::string& path, const PngOutput& output) {
+    writeWholeFile(path, imageFile(image, path, output));
+}
+
+std::string imageFile(const Image& image, const std::string& path, const PngOutput& output) {
     requireFinite(image, path);
-    writeWholeFile(path, formatOf(path).encode(image, path));
+    return formatOf(path).encode(image, path, output);
 }
 
 Image readImage(const std::string& path) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csetjmp>
 #include <cstdint>
 #include <stdexcept>
 
@@ -31,7 +32,70 @@ struct PngImage {
 
 }  // namespace
 
-std::string encodePng(const Image& image, const std::string& name) {
+namespace {
+
+/// The channels that are stored, between 0 and 1, pixel by pixel.
+std::vector<float> storedChannels(const Image& image, bool alpha) {
+    std::vector<float> channels;
+    channels.reserve(image.pixels.size() * (alpha ? 4 : 3));
+    for (const glm::vec4& pixel : image.pixels) {
+        const float opacity = alpha ? std::clamp(pixel.w, 0.0f, 1.0f) : 1.0f;
+        for (int channel = 0; channel < 3; ++channel)
+            channels.push_back(opacity > 0.0f ? std::clamp(pixel[channel] / opacity, 0.0f, 1.0f) : 0.0f);
+        if (alpha) channels.push_back(opacity);
+    }
+    return channels;
+}
+
+/// The nearest of 0…255 or 0…65535, the high byte first.
+std::vector<std::uint8_t> packed(const std::vector<float>& channels, int bits) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(channels.size() * static_cast<std::size_t>(bits / 8));
+    for (const float value : channels) {
+        const auto step =
+            static_cast<std::uint32_t>(std::lround(static_cast<double>(value) * (bits == 16 ? 65535 : 255)));
+        if (bits == 16) bytes.push_back(static_cast<std::uint8_t>(step >> 8));
+        bytes.push_back(static_cast<std::uint8_t>(step & 0xff));
+    }
+    return bytes;
+}
+
+void appendBytes(png_structp png, png_bytep data, std::size_t size) {
+    static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
+}
+
+/// libpng's own errors leave by longjmp, so that nothing here may need a destructor. \returns whether it is whole.
+bool encodeRows(png_structp png, png_infop info, const Image& image, std::uint8_t* bytes, std::size_t rowBytes,
+                const PngOutput& output, std::string& result) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    png_set_write_fn(png, &result, appendBytes, nullptr);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), output.bits,
+                 output.alpha ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_write_info(png, info);
+    for (int y = 0; y < image.height; ++y) png_write_row(png, bytes + static_cast<std::size_t>(y) * rowBytes);
+    png_write_end(png, info);
+    return true;
+}
+
+std::string encodeWithAlphaOrDepth(const Image& image, const std::string& name, const PngOutput& output) {
+    std::vector<std::uint8_t> bytes = packed(storedChannels(image, output.alpha), output.bits);
+    std::string result;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+    const bool good = info != nullptr &&
+                      encodeRows(png, info, image, bytes.data(),
+                                 bytes.size() / static_cast<std::size_t>(std::max(1, image.height)), output, result);
+    png_destroy_write_struct(&png, &info);
+    if (!good) throw std::runtime_error(fmt::format("{}: cannot be encoded as PNG; choose a smaller size", name));
+    return result;
+}
+
+}  // namespace
+
+std::string encodePng(const Image& image, const std::string& name, const PngOutput& output) {
+    if (output.alpha || output.bits == 16) return encodeWithAlphaOrDepth(image, name, output);
     std::vector<std::uint8_t> rgb(image.pixels.size() * 3);
     for (std::size_t i = 0; i < image.pixels.size(); ++i)
         for (int channel = 0; channel < 3; ++channel)

@@ -2,14 +2,13 @@
 #include <projection/light/corner_normals.h>
 
 #include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 
 namespace tetralux::projection {
 
 namespace {
-
-constexpr double leastCosine = 0.766;  // of 40°
 
 glm::dvec3 unitOrZero(const glm::dvec3& v) {
     const double length = glm::length(v);
@@ -18,7 +17,8 @@ glm::dvec3 unitOrZero(const glm::dvec3& v) {
 
 }  // namespace
 
-std::vector<std::array<glm::dvec3, 3>> cornerNormals(const mesh::SurfaceMesh& surface) {
+std::vector<std::array<glm::dvec3, 3>> cornerNormals(const mesh::SurfaceMesh& surface, double featureAngle) {
+    const double leastCosine = std::cos(featureAngle * std::numbers::pi / 180.0);
     std::vector<glm::dvec3> areas;
     std::vector<std::vector<std::size_t>> around(surface.positions.size());
     for (std::size_t i = 0; i < surface.triangles.size(); ++i) {

@@ -24,7 +24,8 @@ namespace tetralux::projection {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr int tileSize = 32;  // pixels
+constexpr double usualFeatureAngle = 40.0;  // degrees
+constexpr int tileSize = 32;                // pixels
 constexpr std::size_t tilePixels = std::size_t{tileSize} * tileSize;
 
 /// A slice may lie in a clipping plane: rounding must not decide whether it shows.
@@ -39,14 +40,15 @@ int clampedPixel(double position, int size) {
     return static_cast<int>(std::clamp(position, 0.0, static_cast<double>(size)));
 }
 
-void checkOpacity(double opacity, Mode mode) {
+void checkOpacity(const char* what, double opacity, Mode mode) {
     if (!(opacity >= 0.0) || !(opacity <= 1.0))
         throw std::runtime_error(
-            fmt::format("slice opacity {}: not from 0 to 1; give a share of what is hidden", opacity));
+            fmt::format("{} opacity {}: not from 0 to 1; give a share of what is hidden", what, opacity));
     if (opacity < 1.0 && !composesParts(mode))
-        throw std::runtime_error(
-            "slice opacity: this mode shows nothing behind a slice; take standard, scale-invariant, first-hit or "
-            "absorption, or slices of opacity 1");
+        throw std::runtime_error(fmt::format(
+            "{0} opacity: this mode shows nothing behind a {0}; take standard, scale-invariant, first-hit or "
+            "absorption, or {0}s of opacity 1",
+            what));
 }
 
 std::vector<glm::dvec3> inksOf(const Isolines& lines, const preint::TransferFunction& function) {
@@ -59,17 +61,14 @@ std::vector<glm::dvec3> inksOf(const Isolines& lines, const preint::TransferFunc
 
 OpaqueLayer::OpaqueLayer(const Scene& scene, const OpaqueObjects& objects)
     : bounds_(scene.mesh->bounds),
-      association_(scene.mesh->association),
       transferFunction_(scene.transferFunction),
       shading_(scene.settings.shading),
       isolineWidth_(objects.isolines.width),
       isolineInks_(inksOf(objects.isolines, scene.transferFunction)),
       surfaces_(objects.surfaces) {
     if (shading_.needsShadows()) shadowAt_ = shadowsOf(scene);
-    std::uint32_t object = 0;
     for (const Slice& slice : objects.slices) {
-        checkOpacity(slice.opacity, scene.settings.mode);
-        sliceOpacities_.push_back(slice.opacity);
+        checkOpacity("slice", slice.opacity, scene.settings.mode);
         const mesh::SurfaceMesh cut = mesh::cutByPlane(*scene.mesh, slice.point, slice.normal);
         if (cut.triangles.empty()) {
             const mesh::BoundingBox& box = scene.mesh->bounds;
@@ -77,24 +76,40 @@ OpaqueLayer::OpaqueLayer(const Scene& scene, const OpaqueObjects& objects)
                 "slice through {},{},{}: misses the mesh; give a point within {},{},{} and {},{},{}", slice.point.x,
                 slice.point.y, slice.point.z, box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z));
         }
-        append(cut, object++);
+        append(cut, {slice.opacity, true}, {});
         isolines_.push_back(mesh::isolines(cut, objects.isolines.values));
     }
-    for (const OpaqueSurface& surface : surfaces_) append(*surface.mesh, object++);
+    for (const OpaqueSurface& surface : surfaces_) {
+        checkOpacity("surface", surface.opacity, scene.settings.mode);
+        if (surface.byField && surface.mesh->scalars.empty())
+            throw std::runtime_error("surface: it has no scalars to be coloured by; give it some, or one colour");
+        std::optional<double> featureAngle = surface.featureAngle;
+        if (!featureAngle && shading_.normals == shading::Normals::Smooth) featureAngle = usualFeatureAngle;
+        append(*surface.mesh, {surface.opacity, surface.clipped}, featureAngle);
+    }
 }
 
-void OpaqueLayer::append(const mesh::SurfaceMesh& part, std::uint32_t object) {
+void OpaqueLayer::append(const mesh::SurfaceMesh& part, const Object& look, std::optional<double> featureAngle) {
     const auto base = static_cast<mesh::PointIndex>(positions_.size());
+    const auto object = static_cast<std::uint32_t>(objects_.size());
+    objects_.push_back(look);
     const bool ofCells = part.association == mesh::Association::Cell && !part.scalars.empty();
+    objects_.back().ofCells = ofCells;
     positions_.insert(positions_.end(), part.positions.begin(), part.positions.end());
     if (!ofCells) scalars_.insert(scalars_.end(), part.scalars.begin(), part.scalars.end());
-    const bool smooth = object >= sliceOpacities_.size() && shading_.normals == shading::Normals::Smooth;
-    const auto normals = smooth ? cornerNormals(part) : std::vector<std::array<glm::dvec3, 3>>();
+    scalars_.resize(positions_.size());
+    const auto normals = featureAngle ? cornerNormals(part, *featureAngle) : std::vector<std::array<glm::dvec3, 3>>();
     for (std::size_t i = 0; i < part.triangles.size(); ++i) {
         const auto& [a, b, c] = part.triangles[i];
         triangles_.push_back({{base + a, base + b, base + c}, ofCells ? part.scalars[i] : 0.0, object, {}});
-        if (smooth) triangles_.back().normals = normals[i];
+        if (featureAngle) triangles_.back().normals = normals[i];
     }
+}
+
+double OpaqueLayer::scalarAt(const Triangle& triangle, const TriangleCrossing& where) const {
+    if (objects_[triangle.object].ofCells) return triangle.scalar;
+    const auto& [a, b, c] = triangle.corners;
+    return where.blend(scalars_[a], scalars_[b], scalars_[c]);
 }
 
 /// Unit, to the eye's side of the triangle; zero where it has no area.
@@ -112,10 +127,13 @@ glm::dvec3 OpaqueLayer::normalAt(const Triangle& triangle, const TriangleCrossin
 }
 
 glm::dvec3 OpaqueLayer::surfaceColor(const OpaqueSurface& surface, const Triangle& triangle,
-                                     const TriangleCrossing& where, const RayFrame& ray, double distance) const {
-    if (surface.flat) return surface.color;
+                                     const TriangleCrossing& where, const RayFrame& ray, double distance,
+                                     double edgeCover) const {
+    glm::dvec3 own = surface.byField ? transferFunction_.colorAt(scalarAt(triangle, where)) : surface.color;
+    if (edgeCover > 0.0) own = glm::mix(own, surface.edges->color, edgeCover);
+    if (surface.flat) return own;
     const glm::dvec3 normal = normalAt(triangle, where, ray.direction);
-    if (normal == glm::dvec3(0)) return surface.color;
+    if (normal == glm::dvec3(0)) return own;
     glm::dvec3 light = shading_.ambient * shading_.ambientColor;
     if (!shading_.lit()) light += (1.0 - glm::min(light, 1.0)) * std::max(0.0, -glm::dot(normal, ray.direction));
     const glm::dvec3 place = ray.origin + distance * ray.direction;
@@ -124,7 +142,7 @@ glm::dvec3 OpaqueLayer::surfaceColor(const OpaqueSurface& surface, const Triangl
         const double facing = glm::dot(normal, arriving.towards);
         if (facing > 0) light += (shadowAt_ ? shadowAt_(source, place) : 1.0) * facing * arriving.color;
     }
-    return surface.color * glm::min(light, 1.0);
+    return own * glm::min(light, 1.0);
 }
 
 glm::dvec3 OpaqueLayer::atDepth(const glm::dvec3& color, const DepthRange& depths, double distance) const {
@@ -136,10 +154,7 @@ glm::dvec3 OpaqueLayer::atDepth(const glm::dvec3& color, const DepthRange& depth
 /// a + (1 − a)·(mean transmittance to the lights), a the ambient light. Lines are drawn upon it before.
 glm::dvec3 OpaqueLayer::sliceColor(const Triangle& triangle, const TriangleCrossing& where, const glm::dvec3& place,
                                    const LineCover& line) const {
-    const auto& [a, b, c] = triangle.corners;
-    const double scalar =
-        association_ == mesh::Association::Cell ? triangle.scalar : where.blend(scalars_[a], scalars_[b], scalars_[c]);
-    glm::dvec3 color = transferFunction_.colorAt(scalar);
+    glm::dvec3 color = transferFunction_.colorAt(scalarAt(triangle, where));
     if (line.share > 0) color = glm::mix(color, isolineInks_[line.value], double{line.share});
     if (!shadowAt_) return color;
     double arrives = 0;
@@ -295,8 +310,8 @@ private:
             const auto crossing = crossTriangle({seen[0].across, seen[1].across, seen[2].across}, triangle.corners);
             if (!crossing) return;
             const double t = crossing->blend(seen[0].t, seen[1].t, seen[2].t);
-            if (!(t > 0) || (isSlice(triangle) && !inRange(pixelNumber(x, y), t))) return;
-            if (const double bare = opacityOf(triangle); bare < 1.0) {
+            if (!(t > 0) || (layer_.objects_[triangle.object].clipped && !inRange(pixelNumber(x, y), t))) return;
+            if (const double bare = layer_.objects_[triangle.object].opacity; bare < 1.0) {
                 LineCover line = tile.lineAt(triangle.object, slot);
                 const double opacity = std::lerp(bare, 1.0, double{line.share});
                 if (line.share > 0) line.share /= static_cast<float>(opacity);  // of what shows: lines are opaque
@@ -309,10 +324,28 @@ private:
         });
     }
 
-    bool isSlice(const Triangle& triangle) const { return triangle.object < layer_.sliceOpacities_.size(); }
+    bool isSlice(const Triangle& triangle) const { return triangle.object < layer_.isolines_.size(); }
 
-    double opacityOf(const Triangle& triangle) const {
-        return isSlice(triangle) ? layer_.sliceOpacities_[triangle.object] : 1.0;
+    /// How much of the pixel lines along the triangle's edges cover, as IsolinePixels tells it.
+    double edgeCover(const SurfaceEdges& edges, const Triangle& triangle, const glm::dvec3& place) const {
+        const PointPixel pixelOf(frame_);
+        const auto pixel = [&](const glm::dvec3& at) {
+            const glm::dvec3 p = at - frame_.eye;
+            return pixelOf(p, pixelOf.depth(p));
+        };
+        for (const mesh::PointIndex corner : triangle.corners)
+            if (!frame_.orthographic && !(pixelOf.depth(layer_.positions_[corner] - frame_.eye) > 0)) return 0.0;
+        const glm::dvec2 here = pixel(place);
+        double nearest = infinite;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::dvec2 from = pixel(layer_.positions_[triangle.corners[k]]),
+                             way = pixel(layer_.positions_[triangle.corners[(k + 1) % 3]]) - from;
+            const double square = glm::dot(way, way);
+            const double share = square > 0 ? std::clamp(glm::dot(here - from, way) / square, 0.0, 1.0) : 0.0;
+            nearest = std::min(nearest, glm::length(here - from - share * way));
+        }
+        const double half = 0.5 * edges.width;
+        return std::clamp(std::min(nearest + half, 0.5) - std::max(nearest - half, -0.5), 0.0, 1.0);
     }
 
     bool inRange(std::size_t pixel, double t) const {
@@ -323,10 +356,13 @@ private:
 
     glm::dvec3 colorOf(const Triangle& triangle, const TriangleCrossing& where, const RayFrame& ray, double distance,
                        const LineCover& line) const {
-        if (!isSlice(triangle))
-            return layer_.atDepth(layer_.surfaceColor(layer_.surfaces_[triangle.object - layer_.sliceOpacities_.size()],
-                                                      triangle, where, ray, distance),
-                                  depths_, distance);
+        if (!isSlice(triangle)) {
+            const OpaqueSurface& surface = layer_.surfaces_[triangle.object - layer_.isolines_.size()];
+            const double cover =
+                surface.edges ? edgeCover(*surface.edges, triangle, ray.origin + distance * ray.direction) : 0.0;
+            return layer_.atDepth(layer_.surfaceColor(surface, triangle, where, ray, distance, cover), depths_,
+                                  distance);
+        }
         return layer_.sliceColor(triangle, where, ray.origin + distance * ray.direction, line);
     }
 

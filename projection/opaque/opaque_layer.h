@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -42,27 +43,32 @@ private:
         std::uint32_t object;                 // slices first
         std::array<glm::dvec3, 3> normals{};  // of smooth surfaces, at the corners
     };
+    struct Object {
+        double opacity;
+        bool clipped;
+        bool ofCells = false;  // its scalars are of its triangles
+    };
 
-    void append(const mesh::SurfaceMesh& part, std::uint32_t object);
+    void append(const mesh::SurfaceMesh& part, const Object& look, std::optional<double> featureAngle);
+    double scalarAt(const Triangle& triangle, const TriangleCrossing& where) const;
     glm::dvec3 normalAt(const Triangle& triangle, const TriangleCrossing& where, const glm::dvec3& direction) const;
     glm::dvec3 surfaceColor(const OpaqueSurface& surface, const Triangle& triangle, const TriangleCrossing& where,
-                            const RayFrame& ray, double distance) const;
+                            const RayFrame& ray, double distance, double edgeCover) const;
     glm::dvec3 atDepth(const glm::dvec3& color, const DepthRange& depths, double distance) const;
     glm::dvec3 sliceColor(const Triangle& triangle, const TriangleCrossing& where, const glm::dvec3& place,
                           const LineCover& line) const;
 
-    mesh::BoundingBox bounds_;       // of the mesh
-    mesh::Association association_;  // of its scalar
+    mesh::BoundingBox bounds_;  // of the mesh
     preint::TransferFunction transferFunction_;
     shading::ShadingSettings shading_;
     ShadowAt shadowAt_;  // of the volume; empty: it casts none
-    std::vector<double> sliceOpacities_;
+    std::vector<Object> objects_;
     std::vector<std::vector<mesh::IsolineSegment>> isolines_;  // of each slice
     double isolineWidth_;                                      // pixels
     std::vector<glm::dvec3> isolineInks_;                      // by value
     std::vector<OpaqueSurface> surfaces_;
     std::vector<glm::dvec3> positions_;  // of all slices and surfaces
-    std::vector<double> scalars_;        // slices of point data: one per position of theirs
+    std::vector<double> scalars_;        // of point data, one per position
     std::vector<Triangle> triangles_;
 };
 

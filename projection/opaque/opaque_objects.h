@@ -24,11 +24,27 @@ struct Isolines {
     std::optional<glm::dvec3> color;  ///< display RGB; not given: black or white, whichever stands out from the slice
 };
 
-/// An opaque surface, each triangle lit by itself from the side that the eye sees (colour as it is where `flat`).
+/// Lines along the edges of a surface's triangles.
+struct SurfaceEdges {
+    double width = 1.0;  ///< pixels
+    glm::dvec3 color{0.1, 0.1, 0.1};
+};
+
+/// A surface, each triangle lit by itself from the side that the eye sees (colour as it is where `flat`).
 struct OpaqueSurface {
     std::shared_ptr<const mesh::SurfaceMesh> mesh;
     glm::dvec3 color{0.8, 0.8, 0.8};
     bool flat = false;
+    bool byField = false;  ///< in the transfer function's colours of its scalars, which it must have, instead
+    double opacity = 1.0;  ///< below 1 what lies behind shows too (veiled_volume.h)
+    /// Normals are interpolated across edges that are bent by less, degrees; not given: 40 where the scene's normals
+    /// are smooth, else each triangle has its own.
+    std::optional<double> featureAngle{};
+    std::optional<SurfaceEdges> edges{};
+    bool clipped = false;  ///< clipping planes leave out parts of it, as of slices
+
+    /// What is clear or cut keeps no light from the volume, nor does the volume's own boundary.
+    bool castsShadows() const { return opacity == 1.0 && !clipped; }
 };
 
 /// What stands in the volume besides it.

@@ -5,5 +5,6 @@
 TETRALUX_CELL_FUNCTION wide orderPosition(wide key, wide nearest, wide farthest) {
     wide range = nearest - farthest;
     wide position = range > wide(0.0) ? (nearest - key) / range : wide(0.0);
-    return min(max(position, wide(0.0)), wide(1.0)) * wide(4294967295.0);
+    // 2³² − 1 as a product: GLSL's literals are floats, the nearest of which is 2³²
+    return min(max(position, wide(0.0)), wide(1.0)) * (wide(65535.0) * wide(65537.0));
 }

@@ -13,9 +13,11 @@
 #include <projection/core/clip_region.h>
 #include <projection/core/lowered_isosurfaces.h>
 #include <projection/frame/engine_registry.h>
+#include <projection/frame/shown_points.h>
 #include <projection/frame/suggested_extinction.h>
 #include <projection/frame/verification.h>
 #include <projection/light/lighting_file.h>
+#include <projection/opaque/boundary_surface.h>
 #include <projection/opaque/opaque_layer.h>
 #include <projection/reference/reference_ray_caster.h>
 #include <projection/reference/reference_segment.h>
@@ -141,6 +143,7 @@ struct Renderer::State {
     std::vector<Slice> slices;
     std::vector<Surface> surfaces;
     int pixelSamples = 1;
+    std::optional<Boundary> boundary;
 
     // what was made of it, tier by tier; `made` says down to which it is still true
     enum class Tier { Nothing, Field, Appearance };
@@ -150,6 +153,7 @@ struct Renderer::State {
     std::optional<mesh::VolumeSamples> volumeSamples;  ///< of `drawn`, once a function asked for them
     std::shared_ptr<projection::FrameMemory> memory = std::make_shared<projection::FrameMemory>();
     projection::Scene scene;
+    projection::SceneParts parts;  ///< what its map sources were made of
     std::unique_ptr<projection::Engine> engine;
     FrameCost cost;
 
@@ -206,13 +210,20 @@ void Renderer::State::makeAppearance() {
     const bool allCells = drawn->cells.size() == mesh->data().cells.size();
     next.meshMemo = allCells ? mesh->data().memo : nullptr;  // without some cells it is another mesh
     next.frameMemory = memory;
-    if (!cuts.empty())
+    const std::vector<projection::HalfSpace> clips = renderer::sceneCuts(cuts);
+    if (!clips.empty())
         next.mapSources.push_back(std::make_shared<projection::ClipRegion>(
-            renderer::sceneCuts(cuts), cutLayer.value_or(projection::cutLayerShare * drawn->bounds.diagonal())));
-    const projection::OpaqueObjects objects = renderer::sceneObjects(slices, surfaces);
-    for (const projection::OpaqueSurface& surface : objects.surfaces) next.shadowCasters.push_back(surface.mesh);
+            clips, cutLayer.value_or(projection::cutLayerShare * drawn->bounds.diagonal())));
+    projection::OpaqueObjects objects = renderer::sceneObjects(slices, surfaces);
+    if (boundary)
+        for (projection::OpaqueSurface& surface :
+             projection::boundarySurfaces(*drawn, clips, renderer::boundaryLook(*boundary)))
+            objects.surfaces.push_back(std::move(surface));
+    for (const projection::OpaqueSurface& surface : objects.surfaces)
+        if (surface.castsShadows()) next.shadowCasters.push_back(surface.mesh);
     if (!objects.empty()) next.mapSources.push_back(std::make_shared<const projection::OpaqueLayer>(next, objects));
     scene = std::move(next);
+    parts = {clips, std::move(objects)};
     engine = projection::makeEngine(scene, {options.engine, options.context});
     made = Tier::Appearance;
 }
@@ -329,6 +340,43 @@ void Renderer::setSurfaces(std::vector<Surface> surfaces) {
     state_->changed(State::Tier::Field);
 }
 
+void Renderer::setBoundary(std::optional<Boundary> boundary) {
+    state_->boundary = std::move(boundary);
+    state_->changed(State::Tier::Field);
+}
+
+FittedView FittedView::named(std::string_view name) {
+    return renderer::translated([&] {
+        const projection::ViewDirection view = projection::namedView(std::string(name));
+        FittedView result;
+        result.direction = {view.forward.x, view.forward.y, view.forward.z};
+        result.up = {view.up.x, view.up.y, view.up.z};
+        return result;
+    });
+}
+
+Camera Renderer::fittedCamera(const FittedView& view, int width, int height) {
+    return renderer::translated([&] {
+        State& state = *state_;
+        projection::Camera fitted;
+        state.run([&] {
+            state.make();
+            const auto points = projection::shownPoints(state.scene, state.parts, !view.wholeMesh);
+            if (points.empty())
+                throw Error(Errc::BadInput,
+                            fmt::format("view: {}", projection::whyEmpty(state.scene, state.parts, {})));
+            fitted = renderer::fittedSceneCamera(view, points, width, height);
+        });
+        Camera camera;
+        camera.eye = {fitted.eye.x, fitted.eye.y, fitted.eye.z};
+        camera.target = {fitted.target.x, fitted.target.y, fitted.target.z};
+        camera.up = {fitted.up.x, fitted.up.y, fitted.up.z};
+        camera.fovDegrees = fitted.fovDegrees;
+        camera.orthographicHeight = fitted.orthographicHeight;
+        return camera;
+    });
+}
+
 FrameResult Renderer::render(const Camera& camera, ImageView image, const Control& control) {
     return renderer::translated([&] {
         checkView(image);
@@ -353,6 +401,8 @@ FrameResult Renderer::render(const Camera& camera, ImageView image, const Contro
                              : limits    ? std::make_shared<const projection::PixelMaps>(*limits)
                                          : nullptr;
                 state.camera = view;
+                if (projection::isEmpty(*picture))
+                    result.emptyBecause = projection::whyEmpty(state.scene, state.parts, view);
             });
         } catch (const projection::FrameStopped&) {
             picture.reset();

@@ -35,6 +35,13 @@ std::shared_ptr<const mesh::SurfaceMesh> surfaceMesh(const Surface& surface) {
                                                      surface.points.size()));
         mesh->triangles.push_back(triangle);
     }
+    if (!surface.scalars.empty() && surface.scalars.size() != surface.points.size())
+        throw std::runtime_error(fmt::format("surface: {} scalars for {} points; give one for each",
+                                             surface.scalars.size(), surface.points.size()));
+    for (const double scalar : surface.scalars)
+        if (!std::isfinite(scalar))
+            throw std::runtime_error("surface: a scalar is not finite; leave its triangles out");
+    mesh->scalars = surface.scalars;
     return mesh;
 }
 
@@ -115,9 +122,32 @@ projection::OpaqueObjects sceneObjects(const std::vector<Slice>& slices, const s
             throw std::runtime_error(fmt::format("slice: opacity {} must lie within 0 and 1", slice.opacity));
         objects.slices.push_back({vec(slice.plane.point), vec(slice.plane.normal), slice.opacity});
     }
-    for (const Surface& surface : surfaces)
-        objects.surfaces.push_back({surfaceMesh(surface), vec(surface.color), surface.flat});
+    for (const Surface& surface : surfaces) {
+        projection::OpaqueSurface one;
+        one.mesh = surfaceMesh(surface);
+        one.color = vec(surface.color);
+        one.flat = surface.flat;
+        one.byField = !surface.scalars.empty();
+        one.opacity = surface.opacity;
+        objects.surfaces.push_back(std::move(one));
+    }
     return objects;
+}
+
+projection::BoundaryLook boundaryLook(const Boundary& boundary) {
+    const bool angle = boundary.featureAngle >= 0 && boundary.featureAngle <= 180;
+    if (!(boundary.opacity > 0 && boundary.opacity <= 1) || !angle || !(boundary.edgeWidth > 0))
+        throw std::runtime_error(
+            fmt::format("boundary: opacity {} (above 0, up to 1), feature angle {} (0 to 180 degrees) or edge width {} "
+                        "(above 0) will not do",
+                        boundary.opacity, boundary.featureAngle, boundary.edgeWidth));
+    projection::BoundaryLook look;
+    look.opacity = boundary.opacity;
+    if (boundary.color) look.color = vec(*boundary.color);
+    look.flat = boundary.flat;
+    look.featureAngle = boundary.featureAngle;
+    if (boundary.edges) look.edges = projection::SurfaceEdges{boundary.edgeWidth, vec(boundary.edgeColor)};
+    return look;
 }
 
 projection::Camera sceneCamera(const Camera& camera, const ImageView& image, const ImageTile& tile) {
@@ -135,6 +165,24 @@ projection::Camera sceneCamera(const Camera& camera, const ImageView& image, con
         result.whole = {tile.wholeWidth, tile.wholeHeight};
     }
     return result;
+}
+
+projection::Camera fittedSceneCamera(const FittedView& view, std::span<const glm::dvec3> points, int width,
+                                     int height) {
+    if (width < 1 || height < 1)
+        throw std::runtime_error(fmt::format("view: a picture of {}x{} pixels; give 1 at least", width, height));
+    if (!(view.margin >= 0 && view.margin < 0.5))
+        throw std::runtime_error(
+            fmt::format("view: a margin of {} leaves no room; give a share below 0.5", view.margin));
+    projection::Camera camera;
+    camera.width = width;
+    camera.height = height;
+    camera.fovDegrees = view.fovDegrees;
+    camera.orthographicHeight = view.orthographic ? 1.0 : 0.0;
+    const projection::ViewDirection direction = projection::turned(
+        projection::ViewDirection{vec(view.direction), vec(view.up)}, {view.azimuth, view.elevation, view.roll});
+    return projection::zoomed(
+        projection::fitted(camera, direction, points, {view.margin, view.margin, view.margin, view.margin}), view.zoom);
 }
 
 }  // namespace tetralux::renderer

@@ -67,6 +67,29 @@ TEST_F(ColorCommand, UnknownNamesAreToldTheNearest) {
     expectRefused(render + " --opacity-distance 2", {"--opacity", "distance"});
 }
 
+TEST_F(ColorCommand, FunctionsThatCannotHaveBeenMeantAreTold) {
+    write("corner.vtu", vtuText(cornerTetrahedron(5)));
+    write("far.json", R"({"color": [[100, 0, 0, 1], [200, 1, 0, 0]], "extinction": [[100, 1]]})");
+    write("thin.json", R"({"color": [[0, 1, 1, 1]], "extinction": [[0, 1e-6]]})");
+    const Outcome far = tetralux("render corner.vtu -o a.png --size 9x9 --quiet --tf far.json");
+    EXPECT_EQ(far.status, 0) << far.err;
+    EXPECT_NE(far.err.find("nodes, 100 to 200, all lie above the field's scalars, 5 to 5"), std::string::npos)
+        << far.err;
+    const Outcome thin = tetralux("render corner.vtu -o a.png --size 9x9 --quiet --tf thin.json");
+    EXPECT_NE(thin.err.find("tetralux: warning: corner.vtu: next to nothing shows"), std::string::npos) << thin.err;
+    expectGood("render corner.vtu -o a.png --size 9x9 --quiet --tf far.json --range 4,6");
+}
+
+TEST_F(ColorCommand, StandardOutputInThePlaceOfFiles) {
+    write("corner.vtu", vtuText(cornerTetrahedron(5)));
+    const Outcome picture = tetralux("render corner.vtu -o - --size 9x9");
+    EXPECT_EQ(picture.status, 0) << picture.err;
+    EXPECT_EQ(picture.out.substr(1, 3), "PNG");
+    const Outcome report = tetralux("render corner.vtu -o a.png --size 9x9 --report -");
+    EXPECT_EQ(nlohmann::json::parse(report.out)["size"][0], 9);
+    expectRefused("render corner.vtu -o - --report -", {"-o -", "one picture"});
+}
+
 TEST_F(ColorCommand, ColorsAreListedAndDrawn) {
     const Outcome all = tetralux("colors");
     EXPECT_EQ(all.status, 0);

@@ -130,12 +130,25 @@ struct Slice {
     double opacity = 1.0;  ///< 0 … 1; below 1 what lies behind shows through
 };
 
-/// Opaque triangles in the volume, in one colour; lit by the renderer's lights unless `flat`.
+/// Triangles in the volume, in one colour or in those of their scalars; lit by the renderer's lights unless `flat`.
 struct Surface {
     std::vector<Vector> points;                           ///< mesh units
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< three numbers of points each
     Vector color{0.8, 0.8, 0.8};                          ///< display RGB
     bool flat = false;                                    ///< in that colour, without light
+    std::vector<double> scalars{};                        ///< one for each point: coloured by the transfer function
+    double opacity = 1.0;                                 ///< below 1 what lies behind shows too
+};
+
+/// The mesh's outer faces, and what cuts lay open, as a surface.
+struct Boundary {
+    double opacity = 1.0;             ///< below 1 the volume within shows too
+    std::optional<Vector> color{};    ///< not given: the transfer function's of the field
+    bool flat = false;                ///< without light
+    double featureAngle = 30.0;       ///< degrees: edges that are bent by less look round
+    bool edges = false;               ///< lines along the edges of its triangles
+    double edgeWidth = 1.0;           ///< pixels
+    Vector edgeColor{0.1, 0.1, 0.1};  ///< display RGB
 };
 
 }  // namespace tetralux

@@ -77,9 +77,8 @@ public:
     std::size_t tetrahedra() const;  ///< that are drawn
     BoundingBox bounds() const;      ///< of them
 
-    /// Three coordinates of each point and four points of each tetrahedron, as they are drawn, while the mesh lives.
-    std::span<const double> positions() const;
-    std::span<const std::uint32_t> corners() const;
+    std::span<const double> positions() const;       ///< three coordinates a point, as drawn, while the mesh lives
+    std::span<const std::uint32_t> corners() const;  ///< four points a tetrahedron, likewise
 
     std::size_t points() const;  ///< of the arrays that it was made of: as many values has a field on points
     std::size_t cells() const;   ///< likewise, and a field on cells

@@ -46,6 +46,24 @@ struct Camera {
     std::array<double, 2> windowCentre{0, 0};
 };
 
+/// A view that Renderer::fittedCamera fits to what shows.
+struct FittedView {
+    Vector direction{-1, -0.7, -1.5};  ///< from the eye into the picture, any length
+    Vector up{0, 1, 0};                ///< what is up in the picture
+    double azimuth = 0;                ///< then turned as vtkCamera turns, degrees
+    double elevation = 0;              ///< likewise
+    double roll = 0;                   ///< likewise
+    double fovDegrees = 30;            ///< vertical
+    bool orthographic = false;         ///< then of the height that what shows asks for
+    double zoom = 1;                   ///< then narrowed by this factor
+    double margin = 0.02;              ///< share of the picture that stays free at each edge
+    bool wholeMesh = false;            ///< held are hidden cells as well
+
+    /// x, -x, y, -y, z, -z (the eye stands on that side), iso (from 1, 1, 1), and xy, xz, yz, yx, zx, zy as PyVista has
+    /// them. \throws Error for other names.
+    static FittedView named(std::string_view name);
+};
+
 /// A three-quarter view that holds the whole box, for a picture of that shape; field of view, height and up are those
 /// of `like`.
 Camera cameraHolding(const BoundingBox& bounds, int width, int height, const Camera& like = {});
@@ -93,8 +111,9 @@ struct FrameResult {
     std::uint64_t pixelsRepaired = 0;                   ///< composed by the exact reference
     std::uint64_t pixelsWrong = 0;                      ///< that nothing vouches for and nothing repaired
     std::map<std::string, double> stageMilliseconds;    ///< wall time by stage
-    int drawnWidth = 0;                                 ///< less than the picture's where a budget asked for it
-    int drawnHeight = 0;                                ///< likewise
+    std::string emptyBecause;  ///< why nothing shows and what would mend it; empty where something does
+    int drawnWidth = 0;        ///< less than the picture's where a budget asked for it
+    int drawnHeight = 0;       ///< likewise
 };
 
 /// How far a picture is from the exact one, by pixels computed again in double precision.
@@ -146,7 +165,7 @@ public:
     void setField(Field field);  ///< needed before the first frame
     /// Nothing: one that shows the mesh, whatever it is.
     void setTransferFunction(std::optional<TransferFunction> function);
-    void setMode(Mode mode);          ///< Mode::Standard without
+    void setMode(Mode mode);              ///< Mode::Standard without
     void setLighting(Lighting lighting);  ///< none without
     /// The same by a JSON document, which can say more: materials, reflectance, fibres, soft shadows (README, lights).
     void setLighting(std::string_view document);
@@ -158,6 +177,11 @@ public:
     void setSurfaces(std::vector<Surface> surfaces);  ///< in the place of those there were
     /// Anti-aliasing: the mean of at least so many rays a pixel, 1 to 64, on a regular grid.
     void setSamples(int samples);
+    void setBoundary(std::optional<Boundary> boundary);  ///< nothing: it is not drawn
+
+    /// The camera that looks along the view's direction, as near as it can be with all that shows in the picture: cells
+    /// that the transfer function shows, within cuts, slices and surfaces. \throws Error when nothing shows.
+    Camera fittedCamera(const FittedView& view, int width, int height);
 
     /// Draws into `image`, all of whose pixels are written. What was set since the last frame is made first. A frame
     /// that is stopped leaves the picture transparent, and the next one goes on as if it had not been.

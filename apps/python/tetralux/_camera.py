@@ -62,7 +62,7 @@ class View:
         if self.eye is None:
             eye, middle, up = core.fitted_camera(self.view, up, fov, height > 0, *size)
             if target is not None:
-                eye = tuple(e + (t - m) for e, t, m in zip(eye, target, middle))
+                eye = triple("eye", [e + (t - m) for e, t, m in zip(eye, target, middle)])
             target = target or middle
         elif self.view is not None:
             raise InputError("view: it says where from, as eye does; leave one of them out")
@@ -70,7 +70,7 @@ class View:
             eye, up = triple("eye", self.eye), up or (0.0, 1.0, 0.0)
             if target is None:
                 low, high = mesh.bounds
-                target = tuple(0.5 * a + 0.5 * b for a, b in zip(low, high))
+                target = triple("target", [0.5 * a + 0.5 * b for a, b in zip(low, high)])
         return _core.Camera(eye, target, up, min(fov / zoom, 179.0), height / zoom, self.window_center)
 
 

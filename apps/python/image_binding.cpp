@@ -33,7 +33,7 @@ void bindImage(nb::module_& module) {
         [](const Rgba& rgba) {
             const std::string png = renderer::translated([&] {
                 const nb::gil_scoped_release unlocked;
-                return projection::encodePng(imageOf(rgba), "image");
+                return projection::encodePng(imageOf(rgba), "image", {});
             });
             return nb::bytes(png.data(), png.size());
         },

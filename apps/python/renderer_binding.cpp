@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <exception>
 #include <filesystem>
@@ -130,6 +131,12 @@ struct Frame {
     }
 };
 
+bool along(const Vector& a, const Vector& b) {
+    const auto length = [](const Vector& v) { return std::hypot(v[0], v[1], v[2]); };
+    const Vector cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    return length(cross) < 1e-3 * length(a) * length(b);
+}
+
 class BoundRenderer {
 public:
     BoundRenderer(const BoundMesh& mesh, const std::string& engine, const std::string& context, int threads) {
@@ -209,6 +216,31 @@ public:
         dict["position"] = probe->position;
         dict["scalar"] = probe->scalar;
         return dict;
+    }
+
+    /// (eye, target, up) of a view fitted to what shows, or without a name to the whole mesh, which an `up` along the
+    /// usual direction turns.
+    std::tuple<Vector, Vector, Vector> fittedCamera(const std::optional<std::string>& name,
+                                                    const std::optional<Vector>& up, double fov, bool orthographic,
+                                                    int width, int height) {
+        FittedView view = name ? FittedView::named(*name) : FittedView();
+        view.fovDegrees = fov;
+        view.orthographic = orthographic;
+        view.wholeMesh = !name;
+        if (up) view.up = *up;
+        if (!name && along(view.direction, view.up)) view.direction = {-1.5, -1.0, -0.7};
+        const auto camera = std::make_shared<Camera>();
+        with([camera, view, width, height](Renderer& renderer) {
+            try {
+                *camera = renderer.fittedCamera(view, width, height);
+            } catch (const Error&) {
+                if (view.wholeMesh) throw;
+                FittedView whole = view;  // nothing shows: then where it would
+                whole.wholeMesh = true;
+                *camera = renderer.fittedCamera(whole, width, height);
+            }
+        });
+        return {camera->eye, camera->target, camera->up};
     }
 
     void cancel() {
@@ -343,6 +375,8 @@ void bindRenderer(nb::module_& module) {
              "depth_limit"_a.noconvert().none())
         .def("verify", &BoundRenderer::verify, "rgba"_a.noconvert(), "camera"_a, "pixels"_a)
         .def("probe", &BoundRenderer::probe, "camera"_a, "x"_a, "y"_a)
+        .def("fitted_camera", &BoundRenderer::fittedCamera, "name"_a.none(), "up"_a.none(), "fov"_a, "orthographic"_a,
+             "width"_a, "height"_a)
         .def("cancel", &BoundRenderer::cancel)
         .def("close", &BoundRenderer::close)
         .def("names", &BoundRenderer::names, "(engine, what does the work).");

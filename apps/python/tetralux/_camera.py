@@ -32,18 +32,6 @@ def _number(what: str, value: Any, form: str) -> float:
         raise InputError(f"{what}: {value!r} will not do; give {form}") from None
 
 
-#: Where the eye stands as seen from the target, and what is up, as PyVista has them.
-_VIEWS: dict[str, tuple[Triple, Triple]] = {
-    "xy": ((0, 0, 1), (0, 1, 0)),
-    "yx": ((0, 0, -1), (1, 0, 0)),
-    "xz": ((0, -1, 0), (0, 0, 1)),
-    "zx": ((0, 1, 0), (1, 0, 0)),
-    "yz": ((1, 0, 0), (0, 0, 1)),
-    "zy": ((-1, 0, 0), (0, 1, 0)),
-    "iso": ((1, 1, 1), (0, 0, 1)),
-}
-
-
 @dataclass
 class View:
     """A camera as people name it; None: what holds the mesh."""
@@ -57,43 +45,33 @@ class View:
     view: Optional[str] = None
     zoom: float = 1.0
 
-    def camera(self, mesh: Mesh, size: tuple[int, int]) -> _core.Camera:
-        towards, view_up = self._named()
-        up = view_up if self.up is None else triple("up", self.up)
+    def camera(self, core: _core.Renderer, mesh: Mesh, size: tuple[int, int]) -> _core.Camera:
+        up = None if self.up is None else triple("up", self.up)
         fov = _number("fov", self.fov, "degrees between 0 and 180")
         if not 0 < fov < 180:
             raise InputError(f"fov: {fov} degrees; give more than 0 and less than 180")
         height = 0.0 if self.height is None else _number("height", self.height, "mesh units above 0")
         if self.height is not None and not 0 < height < np.inf:
             raise InputError(f"height: {height} mesh units; give a length above 0, or None for perspective")
-        own_eye, own_target = (0.0, 0.0, 1.0), (0.0, 0.0, 0.0)
-        if self.eye is None or self.target is None:
-            like = _core.Camera(own_eye, own_target, up, fov, height, self.window_center)
-            own_eye, own_target = _core.camera_holding(mesh._core, *size, like)
-            if towards is not None:
-                own_eye = _towards(own_eye, own_target, towards)
         zoom = _number("zoom", self.zoom, "a number above 0")
         if not 0 < zoom < np.inf:
             raise InputError(f"zoom: {zoom}; give a number above 0")
-        fov, height = min(fov / zoom, 179.0), height / zoom
-        eye = own_eye if self.eye is None else triple("eye", self.eye)
-        target = own_target if self.target is None else triple("target", self.target)
-        return _core.Camera(eye, target, up, fov, height, self.window_center)
-
-    def _named(self) -> tuple[Optional[Triple], Triple]:
-        """Direction towards the eye, and up, of the view's name."""
-        if self.view is None:
-            return None, (0.0, 1.0, 0.0)
-        if not isinstance(self.view, str) or self.view not in _VIEWS:
-            raise InputError(f"view: there is no {self.view!r}; take one of {', '.join(_VIEWS)}")
-        return _VIEWS[self.view]
-
-
-def _towards(eye: Any, target: Any, direction: Triple) -> Triple:
-    """An eye as far away in another direction."""
-    distance = np.linalg.norm(np.subtract(eye, target)) / np.linalg.norm(direction)
-    x, y, z = np.add(target, distance * np.asarray(direction, float))
-    return float(x), float(y), float(z)
+        target = None if self.target is None else triple("target", self.target)
+        if self.view is not None and not isinstance(self.view, str):
+            raise InputError(f"view: {self.view!r} will not do; give a name such as 'xy' or 'iso'")
+        if self.eye is None:
+            eye, middle, up = core.fitted_camera(self.view, up, fov, height > 0, *size)
+            if target is not None:
+                eye = triple("eye", [e + (t - m) for e, t, m in zip(eye, target, middle)])
+            target = target or middle
+        elif self.view is not None:
+            raise InputError("view: it says where from, as eye does; leave one of them out")
+        else:
+            eye, up = triple("eye", self.eye), up or (0.0, 1.0, 0.0)
+            if target is None:
+                low, high = mesh.bounds
+                target = triple("target", [0.5 * a + 0.5 * b for a, b in zip(low, high)])
+        return _core.Camera(eye, target, up, min(fov / zoom, 179.0), height / zoom, self.window_center)
 
 
 def size_of(size: Any) -> tuple[int, int]:

@@ -216,7 +216,7 @@ class Renderer:
                 self.view if view is _UNSET else view,
                 self.zoom if zoom is _UNSET else zoom,
             )
-            camera = seen.camera(self._mesh, (width, rows))
+            camera = seen.camera(self._core, self._mesh, (width, rows))
             background = self._background()
             rgba = np.empty((rows, width, 4), np.float32)
             report = self._core.render(rgba, camera, self._told(progress), float(budget), _depth(depth_limit, rows, width))
@@ -389,8 +389,9 @@ def render(
         Vertical field of view.
     height : float, mesh units, optional
         Makes the view orthographic: so much over the picture's height.
-    view : "xy", "yx", "xz", "zx", "yz", "zy" or "iso", optional
-        The mesh from that side, as in PyVista, where no eye is given.
+    view : str, optional
+        "xy", "yx", "xz", "zx", "yz", "zy" and "iso" as PyVista has them, "x", "-x", …: from that side, fitted tightly to
+        what shows. Not together with an eye.
     zoom : float, default 1
         Above 1: nearer, by a smaller field of view (or height).
     silhouette : bool or "approximate", default False

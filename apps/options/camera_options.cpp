@@ -62,8 +62,12 @@ void addCameraOptions(CLI::App& command, CameraOptions& options) {
     addParsed(command, "--size", options.size, parseSize, "pixels, 512x512", "WxH");
     addParsed(
         command, "--view", options.view,
-        [](const std::string&, const std::string& text) {
-            projection::namedView(text);
+        [](const std::string& option, const std::string& text) {
+            try {
+                projection::namedView(text);
+            } catch (const std::runtime_error& error) {
+                throw std::runtime_error(fmt::format("{}: {}", option, error.what()));
+            }
             return text;
         },
         fmt::format("from which side, fitted tightly to what shows: {}; x: the eye stands at large x and looks along "

@@ -59,6 +59,16 @@ TEST_F(SceneCommand, ViewsAreFittedTightly) {
     expectRefused("render corner.vtu -o a.png --zoom 0", {"--zoom"});
 }
 
+TEST_F(SceneCommand, OrbitsHoldTheMeshAllTheWay) {
+    write("corner.vtu", vtuText(cornerTetrahedron(5)));
+    expectGood(
+        "render corner.vtu -o o.exr --quiet --tf constant.json --engine reference --size 40x40 --view -y --frames 5");
+    for (int frame = 0; frame < 5; ++frame) {
+        const Shown shown = shownIn(readImage(path("o_000" + std::to_string(frame) + ".exr")));
+        EXPECT_TRUE(shown.left > 0 && shown.right < 39 && shown.top > 0 && shown.bottom < 39) << frame;
+    }
+}
+
 TEST_F(SceneCommand, AnEmptyPictureSaysWhy) {
     write("corner.vtu", vtuText(cornerTetrahedron(5)));
     const std::string render = "render corner.vtu -o a.png --quiet --size 9x9 ";

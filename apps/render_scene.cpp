@@ -53,6 +53,7 @@ SceneRenderer::SceneRenderer(const RenderOptions& options)
       annotation_(options.annotation),
       background_(options.background.value_or(ownBackground(options.settings.mode))),
       keepsNumbers_(options.output != "-" && !isFilm(options.output) && projection::holdsNumbers(options.output)) {
+    options_.camera.orbits = options.frames.has_value();
     givenObjects_.isolines.width *= projection::samplesPerAxis(options.settings.samples);  // samples are pixels there
     readStep(options_.read.time);
     if (options_.colors.rangeOfAllSteps && times_.size() > 1) function_.range = rangeOfAllSteps();

@@ -49,8 +49,13 @@ std::vector<std::string> similarNames(std::string_view name, const std::vector<s
             near.emplace_back(changes, one);
     }
     std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < std::min(most, near.size()); ++i) names.push_back(near[i].second);
+    std::vector<std::string> names, folded;  // one of each, however it is spelled
+    for (const auto& [changes, candidate] : near) {
+        if (names.size() == most) break;
+        if (std::find(folded.begin(), folded.end(), foldedName(candidate)) != folded.end()) continue;
+        folded.push_back(foldedName(candidate));
+        names.push_back(candidate);
+    }
     return names;
 }
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <apps/options/camera_options.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <apps/add_option.h>
@@ -40,6 +43,24 @@ void addCorners(const mesh::BoundingBox& box, std::vector<glm::dvec3>& points) {
                             (corner & 4) != 0 ? box.high.z : box.low.z);
 }
 
+/// Points all over the sphere about the box of `points`.
+std::vector<glm::dvec3> sphereAbout(const std::vector<glm::dvec3>& points) {
+    constexpr int count = 500;
+    glm::dvec3 low(points.front()), high(points.front());
+    for (const glm::dvec3& p : points) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const double radius = 0.5 * glm::length(high - low), golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
+    std::vector<glm::dvec3> sphere;
+    for (int i = 0; i < count; ++i) {  // a spiral from pole to pole
+        const double z = 1.0 - (2.0 * i + 1.0) / count, across = std::sqrt(1.0 - z * z);
+        sphere.push_back(0.5 * (low + high) +
+                         radius * glm::dvec3(across * std::cos(golden * i), across * std::sin(golden * i), z));
+    }
+    return sphere;
+}
+
 projection::ViewDirection directionFor(const CameraOptions& options) {
     projection::ViewDirection view;
     if (!options.view.empty()) view = projection::namedView(options.view);
@@ -62,8 +83,12 @@ void addCameraOptions(CLI::App& command, CameraOptions& options) {
     addParsed(command, "--size", options.size, parseSize, "pixels, 512x512", "WxH");
     addParsed(
         command, "--view", options.view,
-        [](const std::string&, const std::string& text) {
-            projection::namedView(text);
+        [](const std::string& option, const std::string& text) {
+            try {
+                projection::namedView(text);
+            } catch (const std::runtime_error& error) {
+                throw std::runtime_error(fmt::format("{}: {}", option, error.what()));
+            }
             return text;
         },
         fmt::format("from which side, fitted tightly to what shows: {}; x: the eye stands at large x and looks along "
@@ -118,7 +143,13 @@ projection::Camera cameraFor(const CameraOptions& options, const projection::Sce
         std::vector<glm::dvec3> points = projection::shownPoints(scene, parts, toWhatShows);
         if (points.empty()) points = projection::shownPoints(scene, {}, false);
         if (boxToo) addCorners(scene.mesh->bounds, points);
-        camera = projection::fitted(camera, directionFor(options), points, margins);
+        projection::Margins free = margins;
+        if (options.orbits) {  // about the middle of the picture
+            points = sphereAbout(points);
+            free.left = free.right = std::max(margins.left, margins.right);
+            free.top = free.bottom = std::max(margins.top, margins.bottom);
+        }
+        camera = projection::fitted(camera, directionFor(options), points, free);
         if (options.target) {
             camera.eye += *options.target - camera.target;
             camera.target = *options.target;

@@ -28,6 +28,7 @@ struct CameraOptions {
     double fovDegrees = 30.0;
     double orthographicHeight = 0.0;  ///< mesh units; 0: perspective
     bool orthographic = false;        ///< with a height that holds what shows
+    bool orbits = false;              ///< the eye goes round: a fitted view holds what shows from every side
 };
 
 void addCameraOptions(CLI::App& command, CameraOptions& options);

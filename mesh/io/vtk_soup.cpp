@@ -280,7 +280,7 @@ std::string blockName(vtkCompositeDataIterator* leaf) {
     return name != nullptr ? name : "";
 }
 
-/// All leaves with cells, one behind the other; of several each is a block with the name that it has there.
+/// All leaves with cells, one behind the other; where they have names, each is a block with its own.
 CellSoup soupFromBlocks(vtkCompositeDataSet* composite) {
     std::vector<std::pair<vtkDataSet*, std::string>> parts;
     const auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
@@ -288,11 +288,14 @@ CellSoup soupFromBlocks(vtkCompositeDataSet* composite) {
         auto* const part = vtkDataSet::SafeDownCast(leaf->GetCurrentDataObject());
         if (part != nullptr && part->GetNumberOfCells() > 0) parts.emplace_back(part, blockName(leaf));
     }
+    const bool named =  // pieces of one mesh are not
+        parts.size() > 1 &&
+        std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part.second.empty(); });
     CellSoup soup;
     double number = 0.0;
     for (const auto& [part, name] : parts) {
         CellSoup block = soupFromDataSet(part);
-        if (parts.size() > 1) nameBlock(block, ++number, name);
+        if (named) nameBlock(block, ++number, name);
         appendSoup(soup, std::move(block));
     }
     return soup;

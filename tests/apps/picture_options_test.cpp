@@ -129,7 +129,7 @@ TEST_F(PictureOptions, IsolinesStandOnSlices) {
 }
 
 TEST_F(PictureOptions, AnnotationChangesOnlyWhatItCovers) {
-    const std::string render = "render bucky:6 --size 200x160 --quiet --engine cpu -o ";
+    const std::string render = "render bucky:6 --size 200x160 --quiet --engine cpu --eye 1.9,1.4,2.3 -o ";
     expectGood(render + "plain.exr");
     expectGood(render + "noted.exr --color-bar --axes --title Bucky");
     const Image plain = readImage(path("plain.exr")), noted = readImage(path("noted.exr"));

@@ -48,7 +48,8 @@ TEST_F(SceneCommand, ViewsAreFittedTightly) {
     const Shown whole = shownIn(readImage(path("a.exr")));
     expectGood(render + "--view z --zoom 0.5");
     const Shown half = shownIn(readImage(path("a.exr")));
-    EXPECT_NEAR(half.bottom - half.top, 0.5 * (whole.bottom - whole.top), 2.0);
+    constexpr double narrower = 0.4641;  // tan 15° over tan 30°: the angle of view is doubled
+    EXPECT_NEAR(half.bottom - half.top, narrower * (whole.bottom - whole.top), 2.0);
     expectGood(render + "--view z --roll 90 --report r.json");
     EXPECT_NEAR(json("r.json")["camera"]["up"][0].get<double>(), 1.0, 1e-9) << "vtkCamera's Roll";
     expectRefused("render corner.vtu -o a.png --view front", {"front", "iso"});
@@ -56,6 +57,16 @@ TEST_F(SceneCommand, ViewsAreFittedTightly) {
     expectRefused("render corner.vtu -o a.png --view x --target 1,1,1", {"--target"});
     expectRefused("render corner.vtu -o a.png --direction 0,0,0", {"--direction", "0,0,0"});
     expectRefused("render corner.vtu -o a.png --zoom 0", {"--zoom"});
+}
+
+TEST_F(SceneCommand, OrbitsHoldTheMeshAllTheWay) {
+    write("corner.vtu", vtuText(cornerTetrahedron(5)));
+    expectGood(
+        "render corner.vtu -o o.exr --quiet --tf constant.json --engine reference --size 40x40 --view -y --frames 5");
+    for (int frame = 0; frame < 5; ++frame) {
+        const Shown shown = shownIn(readImage(path("o_000" + std::to_string(frame) + ".exr")));
+        EXPECT_TRUE(shown.left > 0 && shown.right < 39 && shown.top > 0 && shown.bottom < 39) << frame;
+    }
 }
 
 TEST_F(SceneCommand, AnEmptyPictureSaysWhy) {

@@ -117,8 +117,10 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
     const projection::Engine& engine = renderer.engine();
     const FrameReport first = record.frames.empty() ? FrameReport{} : record.frames.front();
     std::uint64_t repaired = 0, wrong = 0;
+    json because = json::object();
     for (const FrameReport& frame : record.frames) {
         repaired += frame.pixelsRepaired;
+        for (const auto& [doubt, count] : frame.repairedBecause) because[doubt] = because.value(doubt, std::uint64_t{0}) + count;
         wrong += frame.pixelsWrong;
     }
     const int perAxis = projection::samplesPerAxis(options.settings.samples);
@@ -152,7 +154,7 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
         {"tiles",
          {{"retired", first.tilesRetired}, {"entries", first.tileEntries}, {"entries_saved", first.tileEntriesSaved}}},
         {"ms", timesJson(record, engine)},
-        {"pixels", {{"repaired", repaired}, {"wrong", wrong}}},
+        {"pixels", {{"repaired", repaired}, {"because", because}, {"wrong", wrong}}},
         {"peak_memory_bytes", peakMemoryBytes()},
     };
     if (record.step)

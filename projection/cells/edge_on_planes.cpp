@@ -18,6 +18,9 @@ constexpr double quantum = 1e-7;              // planes closer than this, in nor
 constexpr std::size_t leastFaces = 3;         // of those looked at, for a plane to count as shared by many
 constexpr double edgeOn = 1e-5;               // distance of the eye (diagonals), or sine to the view
 constexpr double nearCentre = 4 * 0x1p-14;    // pixels
+constexpr double mostPixels = 128.0;          // of a cell, for which the widest shift is needed; less for smaller ones
+constexpr double leastShare = 0x1p-6;
+constexpr double leastDepth = 0.25;  // diagonals: cells beside the eye are none of the many
 
 using PlaneKey = std::array<std::int64_t, 4>;
 
@@ -69,6 +72,8 @@ EdgeOnPlanes::EdgeOnPlanes(const mesh::ScalarMesh& mesh)
             std::array<glm::dvec3, 3> p;
             for (std::size_t k = 0; k < 3; ++k)
                 p[k] = (mesh.positions[mesh.cells[cell][static_cast<std::size_t>(face[k])]] - centre_) * perLength_;
+            for (std::size_t k = 0; k < 3; ++k)
+                longestEdge_ = std::max(longestEdge_, glm::distance(p[k], p[(k + 1) % 3]));
             found.push_back(planeOf(p));
         }
     }
@@ -91,7 +96,10 @@ glm::dvec2 EdgeOnPlanes::sampleShift(const CameraFrame& frame) const {
         const double perX = glm::dot(normal, right), perY = glm::dot(normal, down);
         const double atOrigin =
             (frame.orthographic ? atEye : alongView) - frame.centre.x * perX - frame.centre.y * perY;
-        if (passesPixelCentre(atOrigin, perX, perY, frame.width, frame.height)) return widely;
+        if (!passesPixelCentre(atOrigin, perX, perY, frame.width, frame.height)) continue;
+        const double depth = frame.orthographic ? 1.0 : glm::length(eye);
+        const double pixels = longestEdge_ / (glm::length(right) * std::max(depth, leastDepth));
+        return widest * std::clamp(pixels / mostPixels, leastShare, 1.0);
     }
     return barely;
 }

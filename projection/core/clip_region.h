@@ -35,6 +35,8 @@ public:
 
     void apply(const Camera& camera, PixelMaps& maps) const override;
 
+    const std::vector<HalfSpace>& halfSpaces() const { return halfSpaces_; }
+
     /// Where along a ray the region begins and ends (mesh units; begin ≥ end: nowhere, begin may be less than 0).
     glm::dvec2 within(const Ray& ray) const;
 

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include <projection/core/camera.h>
 #include <projection/core/pixel_maps.h>
 #include <projection/core/scene.h>
@@ -36,10 +38,11 @@ struct FrameReport {
     /// Pixels (y·width + x, ascending) that the engine could not order with certainty; makeEngine's engines have them
     /// composed exactly afterwards and count them as repaired.
     std::vector<std::uint32_t> doubtfulPixels;
-    /// Cells among which those are that have a face seen edge-on (edge_on_faces.h), where the engine tells.
-    std::optional<std::vector<mesh::CellIndex>> cellsEdgeOn;
-    bool samplesBeside = false;        ///< by EdgeOnPlanes::widely, so that outlines within that are doubtful too
-    std::uint64_t pixelsRepaired = 0;  ///< composed by the reference
+    /// Where samples stand beside the centres (pixels), of engines in which floats say on which side of a face they run
+    /// (edge_on_faces.h); none where double does.
+    std::optional<glm::dvec2> floatSamples;
+    std::uint64_t pixelsRepaired = 0;  ///< composed by the reference: those that the engine cannot vouch for
+    std::map<std::string, std::uint64_t> repairedBecause;  ///< how many of them by reason, the first that was found
     /// Doubtful pixels that were not repaired: 0 but for OrderMethod::Centroid. cpu tells those in which it sees cells
     /// out of order, gl those in which two that follow one another may be, which are more.
     std::uint64_t pixelsWrong = 0;

@@ -77,6 +77,42 @@ HWY_INLINE void storeFloats(wide value, float* to) {
     hn::StoreU(hn::DemoteTo(HalfFloatTag(), value.v), HalfFloatTag(), to);
 }
 
+/// As a float, and what that leaves.
+HWY_INLINE void storeInTwo(wide value, float* to, float* rest) {
+    const auto rounded = hn::DemoteTo(HalfFloatTag(), value.v);
+    hn::StoreU(rounded, HalfFloatTag(), to);
+    storeFloats(value - wide(hn::PromoteTo(DoubleTag(), rounded)), rest);
+}
+
+/// Cells in which a plane changes so much over the cell's image that floats, which err by 2^-24 of that, misjudge it by
+/// more than 2^-14 of the cell's thickness (at the reference point).
+HWY_INLINE wide_mask steepCells(const ProjectedCell& cell, const hn::Vec<DoubleTag> (&pixels)[4]) {
+    const hn::Repartition<float, DoubleTag> pairs;
+    const auto p0 = hn::BitCast(pairs, pixels[0]), p1 = hn::BitCast(pairs, pixels[1]),
+               p2 = hn::BitCast(pairs, pixels[2]), p3 = hn::BitCast(pairs, pixels[3]);
+    const auto sizes = hn::Sub(hn::Max(hn::Max(p0, p1), hn::Max(p2, p3)), hn::Min(hn::Min(p0, p1), hn::Min(p2, p3)));
+    const auto larger = hn::Max(sizes, hn::Reverse2(pairs, sizes));
+    const wide reach(hn::PromoteTo(DoubleTag(), hn::LowerHalf(HalfFloatTag(), hn::ConcatEven(pairs, larger, larger))));
+    wide most(0.0), least(1e300);
+    for (int k = 0; k < 4; ++k) {
+        most = max(most, abs(cell.plane[k][1]) + abs(cell.plane[k][2]));
+        least = min(least, abs(cell.plane[k][0]));
+    }
+    return most * reach > wide(1024.0) * least;
+}
+
+HWY_INLINE void keepInDouble(const ProjectedCell& cell, wide offsetX, wide offsetY, std::size_t j, SteepCells& steep) {
+    const auto store = [&](wide value, double* to) HWY_ATTR { hn::StoreU(value.v, DoubleTag(), to + j); };
+    for (std::size_t k = 0; k < 4; ++k)
+        for (std::size_t i = 0; i < 3; ++i) store(cell.plane[k][i], steep.plane[k][i]);
+    store(offsetX, steep.offsetX);
+    store(offsetY, steep.offsetY);
+    store(cell.scalar, steep.scalar);
+    store(cell.scalarPerX, steep.scalarPerX);
+    store(cell.scalarPerY, steep.scalarPerY);
+    store(cell.scalarPerRho, steep.scalarPerRho);
+}
+
 /// Rectangles within the tile from the corners' pixels, as (x, y) pairs in float lanes; true when a corner lies behind
 /// the eye.
 HWY_INLINE bool batchRectangles(const TileFrame& frame, const hn::Vec<DoubleTag> (&pixels)[4], int tileX, int tileY,
@@ -178,8 +214,13 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
     storeFloats(cell.scalarPerY, &batch.scalarPerY[j]);
     storeFloats(cell.scalarPerRho, &batch.scalarPerRho[j]);
     storeFloats(reference.depth, &batch.scale[j]);
-    storeFloats(wide(tileX - frame.centre.x) - reference.imageX, &batch.offsetX[j]);
-    storeFloats(wide(tileY - frame.centre.y) - reference.imageY, &batch.offsetY[j]);
+    const wide offsetX = wide(tileX - frame.centre.x) - reference.imageX,
+               offsetY = wide(tileY - frame.centre.y) - reference.imageY;
+    storeInTwo(offsetX, &batch.offsetX[j], &batch.restX[j]);
+    storeInTwo(offsetY, &batch.offsetY[j], &batch.restY[j]);
+    const wide_mask steep = steepCells(cell, pixels);
+    storeFloats(wide(hn::IfThenElseZero(steep, hn::Set(tag, 1.0))), &batch.steep.is[j]);
+    if (HWY_UNLIKELY(!hn::AllFalse(tag, steep))) keepInDouble(cell, offsetX, offsetY, j, batch.steep);
 
     const wide nearest = min(min(p[0].z, p[1].z), min(p[2].z, p[3].z)),
                deepest = max(max(p[0].z, p[1].z), max(p[2].z, p[3].z));

@@ -44,7 +44,6 @@ struct CullTask {
     Survivor* survivors;  ///< room for end − begin
     int tilesX;
     std::uint32_t* tileCounts;  ///< one more for each tile that a survivor meets
-    std::vector<mesh::CellIndex>* edgeOn;  ///< survivors that may have a face seen edge-on (edge_on_faces.h) are added
 };
 
 /// Cells that can be seen, in order; their number.

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <bit>
 
-#include <projection/cells/edge_on_planes.h>
 #include <projection/cpu/cpu_cull.h>
 #include <projection/cpu/cpu_special_cell.h>
 
@@ -38,24 +37,8 @@ HWY_INLINE std::uint32_t bitsOf(hn::Mask<FloatTag> lanes) {
 
 /// Lanes of a group of cells, as bits.
 struct GroupBits {
-    std::uint32_t seen, outside, atEye, edgeOn;  ///< atEye: a corner lies behind the eye
+    std::uint32_t seen, outside, atEye;  ///< atEye: a corner lies behind the eye
 };
-
-/// Cells with a face that may be edge-on (mayBeEdgeOn of edge_on_faces.cpp).
-HWY_INLINE hn::Mask<FloatTag> edgeOn(const hn::Vec<FloatTag> (&x)[4], const hn::Vec<FloatTag> (&y)[4],
-                                     hn::Vec<FloatTag> reach, hn::Vec<FloatTag> largest) {
-    const FloatTag tag;
-    hn::Vec<FloatTag> u[3], v[3];
-    for (int k = 0; k < 3; ++k) {
-        u[k] = hn::Sub(x[k + 1], x[0]);
-        v[k] = hn::Sub(y[k + 1], y[0]);
-    }
-    const auto area = [&](int i, int j) HWY_ATTR { return hn::MulSub(u[i], v[j], hn::Mul(v[i], u[j])); };
-    const auto abc = area(0, 1), acd = area(1, 2), abd = area(0, 2), bcd = hn::Sub(hn::Add(abc, acd), abd);
-    const auto least = hn::Min(hn::Min(hn::Abs(abc), hn::Abs(acd)), hn::Min(hn::Abs(abd), hn::Abs(bcd)));
-    const auto rounding = hn::MulAdd(hn::Set(tag, edgeOnShare), largest, hn::Set(tag, edgeOnPixel));
-    return hn::Not(hn::Gt(least, hn::Mul(rounding, reach)));
-}
 
 HWY_INLINE GroupBits rectanglesOf(const TileFrame& frame, hn::Vec<IntTag> cells, Rectangles& rectangles) {
     const FloatTag tag;
@@ -64,22 +47,17 @@ HWY_INLINE GroupBits rectanglesOf(const TileFrame& frame, hn::Vec<IntTag> cells,
     const auto* pixels = reinterpret_cast<const float*>(frame.points);
     constexpr int xAt = 6, yAt = 7;  // in floats of CameraPoint
     const auto row = hn::ShiftLeft<2>(cells);
-    hn::Vec<FloatTag> lowX, highX, lowY, highY, sum, allX[4], allY[4];
+    hn::Vec<FloatTag> lowX, highX, lowY, highY, sum;
     for (int k = 0; k < 4; ++k) {
         const auto point = hn::ShiftLeft<3>(hn::GatherIndex(ints, corners, hn::Add(row, hn::Set(ints, k))));
         const auto x = hn::GatherIndex(tag, pixels, hn::Add(point, hn::Set(ints, xAt)));
         const auto y = hn::GatherIndex(tag, pixels, hn::Add(point, hn::Set(ints, yAt)));
-        allX[k] = x;
-        allY[k] = y;
         lowX = k == 0 ? x : hn::Min(lowX, x);
         highX = k == 0 ? x : hn::Max(highX, x);
         lowY = k == 0 ? y : hn::Min(lowY, y);
         highY = k == 0 ? y : hn::Max(highY, y);
         sum = k == 0 ? x : hn::Add(sum, x);
     }
-    const auto largest =
-        hn::Max(hn::Max(hn::Abs(lowX), hn::Abs(highX)), hn::Max(hn::Abs(lowY), hn::Abs(highY)));
-    const auto edges = edgeOn(allX, allY, hn::Max(hn::Sub(highX, lowX), hn::Sub(highY, lowY)), largest);
     const auto pad = hn::Set(tag, pixelPadding(frame.width, frame.height)), zero = hn::Zero(tag);
     const auto lastX = hn::Set(tag, static_cast<float>(frame.width - 1)),
                lastY = hn::Set(tag, static_cast<float>(frame.height - 1));
@@ -97,8 +75,7 @@ HWY_INLINE GroupBits rectanglesOf(const TileFrame& frame, hn::Vec<IntTag> cells,
     hn::Store(hn::ConvertTo(ints, y1), ints, rectangles.y1);
     const auto covers = hn::And(inside, hn::And(hn::Le(x0, x1), hn::Le(y0, y1)));
     const auto whole = hn::Eq(sum, sum);  // NaN where a corner has no pixel
-    return {bitsOf(hn::And(whole, covers)), bitsOf(hn::AndNot(inside, whole)), ~bitsOf(whole),
-            bitsOf(hn::And(covers, edges)) | ~bitsOf(whole)};
+    return {bitsOf(hn::And(whole, covers)), bitsOf(hn::AndNot(inside, whole)), ~bitsOf(whole)};
 }
 
 class Culling {
@@ -120,7 +97,7 @@ public:
                 cells[j] = static_cast<std::int32_t>(task_.visible ? task_.visible[at] : at);
             }
             GroupBits bits = rectanglesOf(frame_, hn::Load(ints, cells), rectangles_);
-            addGroup({bits.seen & all, bits.outside & all, bits.atEye & all, bits.edgeOn & all},
+            addGroup({bits.seen & all, bits.outside & all, bits.atEye & all},
                      static_cast<std::size_t>(std::popcount(all)), cells);
         }
         return kept_;
@@ -139,7 +116,6 @@ private:
             if (HWY_UNLIKELY((bits.atEye >> j & 1u) != 0 || frame_.orthographic) &&
                 !meetsFrontHalf(cell, (bits.atEye >> j & 1u) != 0, j))
                 continue;
-            if (HWY_UNLIKELY((bits.edgeOn >> j & 1u) != 0)) task_.edgeOn->push_back(cell);
             add(cell, rectangles_.x0[j], rectangles_.y0[j], rectangles_.x1[j], rectangles_.y1[j]);
         }
     }

@@ -18,7 +18,6 @@
 #include <tbb/task_arena.h>
 #include <glm/geometric.hpp>
 
-#include <projection/cells/edge_on_planes.h>
 #include <projection/cells/ray_nearness.h>
 #include <projection/core/transfer_support.h>
 #include <projection/cpu/cpu_bins.h>
@@ -72,7 +71,6 @@ public:
           skips_(skips),
           mesh_(*scene.mesh),
           units_(sceneUnits(mesh_)),
-          edgeOnPlanes_(mesh_),
           transfer_(inSceneUnits(scene.transferFunction, units_, integralOf(scene.settings.mode)),
                     scene.settings.everyNode ? 0.0 : nodeTolerance),
           scalarColors_(inSceneUnits(scene.transferFunction, units_, integralOf(scene.settings.mode)),
@@ -98,10 +96,8 @@ public:
         setLimits(view);
         Image image(camera.width, camera.height);  // only now: it takes the place of the survivors
         draw(view.control, image, report);
-        report.samplesBeside = cameraFrame_.sampleShift == EdgeOnPlanes::widely;
         report.cellsSkipped = skipped_;
         report.cellsDrawn = cellsDrawn_;
-        report.cellsEdgeOn = edgeOn_;
         report.orderMethod = order_.method;
         report.orderCycles = order_.cyclicCells;
         report.orderUpkeep = order_.method == "none" ? "none" : order_.upkeep;
@@ -136,7 +132,6 @@ private:
     const CpuSkips skips_;
     const mesh::ScalarMesh& mesh_;
     const SceneUnits units_;
-    const EdgeOnPlanes edgeOnPlanes_;
     const CpuTransfer transfer_;
     const ScalarColors scalarColors_;
     std::shared_ptr<CpuFrameMemory> memory_;
@@ -159,7 +154,6 @@ private:
     int tilesX_ = 0, tilesY_ = 0;
     CpuFrameOrder order_;
     std::uint64_t cellsDrawn_ = 0;
-    std::vector<mesh::CellIndex> edgeOn_;
     std::map<std::string, std::uint64_t> skipped_;
 };
 
@@ -312,7 +306,7 @@ void CpuEngine::makeLists(const View& view, FrameReport& report) {
         start = Clock::now();
         checkStop(view.control);
     };
-    cameraFrame_ = sampledFrame(view.camera, edgeOnPlanes_);
+    cameraFrame_ = cameraFrame(view.camera);
     const CameraFrame& frame = cameraFrame_;
     projectPoints(mesh_, units_, frame, memory_->points);
     setFrame();
@@ -369,7 +363,6 @@ CullCounts CpuEngine::cull(const FrameControl* control) {
     memory_->chunks.resize(chunkCount);
     memory_->bins.reset(chunkCount, tilesX_, tilesY_);
     std::vector<CullCounts> counts(chunkCount);
-    std::vector<std::vector<mesh::CellIndex>> edgeOn(chunkCount);
     tbb::parallel_for(std::size_t{0}, chunkCount, [&](std::size_t c) {
         checkStop(control);
         const std::size_t begin = c * chunkSize, end = std::min(candidates, begin + chunkSize);
@@ -380,14 +373,11 @@ CullCounts CpuEngine::cull(const FrameControl* control) {
                             order_.keys,
                             memory_->survivors.get() + begin,
                             tilesX_,
-                            memory_->bins.counts(c),
-                            &edgeOn[c]};
+                            memory_->bins.counts(c)};
         memory_->chunks[c] = {begin, cullCells(frame_, task, counts[c])};
     });
     cellsDrawn_ = 0;
     for (const auto& chunk : memory_->chunks) cellsDrawn_ += chunk.count;
-    edgeOn_.clear();
-    for (const auto& cells : edgeOn) edgeOn_.insert(edgeOn_.end(), cells.begin(), cells.end());
     CullCounts sum;
     for (const auto& count : counts) {
         sum.outsideView += count.outsideView;

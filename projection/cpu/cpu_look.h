@@ -37,6 +37,34 @@ HWY_INLINE real silhouetteFactor(const CellLook& cell, const BlockLook& block) {
     return block.rayLength * reciprocal(max(abs(block.fall * real(cell.perSteepness)), real(1e-18f)));
 }
 
+/// What floats make n·d err by, and so, times 1/|n·d|, a silhouette's depth relative to itself; and how much of
+/// opacity, or of light that adds up, it may change.
+constexpr float cosineRounding = 2e-7f, largestSilhouetteError = 1e-4f;
+
+/// Rays so nearly along level sets that the former may come to more than the latter.
+HWY_INLINE mask grazes(const CellLook& cell, const BlockLook& block, mask live) {
+    const real steepness = abs(block.fall * real(cell.perSteepness));
+    return both(live, steepness * real(largestSilhouetteError / cosineRounding) < block.rayLength);
+}
+
+/// `after`: optical depth behind a segment, `before` it; no number where silhouettes make it err.
+HWY_INLINE real vouchedDepth(const CellLook& cell, const BlockLook& block, mask live, real before, real after) {
+    const mask grazing = grazes(cell, block, live);
+    if (HWY_LIKELY(none(grazing))) return after;
+    const real error = (after - before) * exp(-min(after, real(80.0f))) * silhouetteFactor(cell, block);
+    return select(both(grazing, error * real(cosineRounding) > real(largestSilhouetteError)), unsure(), after);
+}
+
+/// The same of transmittance.
+HWY_INLINE real vouchedTransmittance(const CellLook& cell, const BlockLook& block, mask live, real before, real after) {
+    const mask grazing = grazes(cell, block, live);
+    if (HWY_LIKELY(none(grazing))) return after;
+    const real left = after / max(before, real(1e-30f)), absorbedShare = real(1.0f) - left;
+    // x·exp(−x) of the depth x, within a factor of 1.6
+    const real error = real(2.0f) * absorbedShare * max(left, real(0.05f)) * before * silhouetteFactor(cell, block);
+    return select(both(grazing, error * real(cosineRounding) > real(largestSilhouetteError)), unsure(), after);
+}
+
 /// Optical depth alone, with silhouettes: isosurfaces by 1/|n·d|, what lies between over paths that hold it already.
 struct EnhancedDepthSink {
     static constexpr bool depthOnly = true;
@@ -60,7 +88,8 @@ HWY_INLINE real enhancedDepth(const CpuTransfer& transfer, const CellLook& cell,
     if (!ScaleInvariant && cell.gradient > 0) longer.length = segments.length * silhouetteFactor(cell, block);
     EnhancedDepthSink sink{cell, block, depth};
     addAlong<false>(transfer, first, last, longer, sink);
-    return sink.depth;
+    if (ScaleInvariant || !(cell.gradient > 0)) return sink.depth;
+    return vouchedDepth(cell, block, segments.live, depth, sink.depth);
 }
 
 /// Segments of one block with a look, composited into `sink`.
@@ -82,6 +111,13 @@ struct LookedSegments {
     }
 
     HWY_INLINE void add(std::size_t first, std::size_t last, ColorSink& sink) const {
+        const real before = sink.t;
+        addSegments(first, last, sink);
+        if (!ScaleInvariant && silhouettes()) sink.t = vouchedTransmittance(cell, block, segments.live, before, sink.t);
+    }
+
+private:
+    HWY_INLINE void addSegments(std::size_t first, std::size_t last, ColorSink& sink) const {
         if constexpr (shows == CellShows::NarrowPeak || shows == CellShows::WidePeak)
             return addOnlyPeak(*peaks.peak[cell.j], sink);
         const CpuTransfer& transfer = *frame.transfer;

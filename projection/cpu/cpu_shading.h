@@ -39,6 +39,20 @@ HWY_INLINE real opacityOfDepth(real depth) {
     return select(depth < pieceDepthLimit(), pieceOpacity(min(depth, pieceDepthLimit())), real(1.0f) - exp(-depth));
 }
 
+/// Makes opacity and depth no number where floats, which hold the cosine n·d to some 2e-7, do not hold what silhouettes
+/// make of them to 1e-4. In the first hit neither shows.
+HWY_INLINE void vouch(const TileFrame& frame, real cosine, mask live, real& depth, real& opacity) {
+    if (frame.kind == TileKind::FirstHit) return;
+    constexpr float rounding = 2e-7f, largestError = 1e-4f;
+    const mask grazing = both(live, abs(cosine) < real(rounding / largestError));
+    if (HWY_LIKELY(none(grazing))) return;
+    const real change = depth * real(rounding) / max(abs(cosine), real(1e-30f));
+    const real seen = frame.kind == TileKind::Additive ? real(1.0f) / max(depth, real(1.0f)) : real(1.0f) - opacity;
+    const mask doubted = both(grazing, change * seen > real(largestError));
+    opacity = select(doubted, unsure(), opacity);
+    depth = select(doubted, unsure(), depth);
+}
+
 /// `towards`: the unit direction of each pixel's ray, (right, down, forward). `fall` has the sign of s_f − s_b.
 /// `middles()` and `place()` give where the segments' middles lie (cpu_light.h), which only light in full asks.
 template <bool ScaleInvariant, class Middles, class Place>
@@ -70,13 +84,15 @@ HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& b
         }
     }
     real factor(1.0f);
-    if (shading.gradientOpacity > 0) factor = real(shading.gradientOpacity) * magnitude;  // Equation 18
+    if (shading.gradientOpacity > 0) factor = real(shading.gradientOpacity) * magnitude;  // Levoy's
     if (frame.classification == Classification::PostLinear) factor = factor * linearDepthFactor(factor * plainDepth);
     depth = depth * factor;
     plainDepth = plainDepth * factor;
     real opacity = opacityOfDepth(depth);
     if (shading.approximateSilhouette && enhanced)
         opacity = approximateSilhouetteOpacity(opacityOfDepth(plainDepth), plainDepth, depth);
+    if (!ScaleInvariant && enhanced && !frame.smoothSilhouettes)
+        vouch(frame, dot(normal, towards), segments.live, depth, opacity);
     if (!shading.lit()) return {mean.x, mean.y, mean.z, opacity, depth};
 
     real side = select(fall > real(0.0f), real(1.0f), select(fall < real(0.0f), real(-1.0f), real(0.0f)));

@@ -3,6 +3,8 @@
 /// SIMD lanes with operators, so that the shared texts (.glsl) compile for them: `real` is a vector of floats, one lane
 /// per pixel, `wide` one of doubles, one lane per cell. Included once per instruction set (Highway's foreach_target).
 /// Vector types of unknown size (SVE, RISC-V) cannot be members of a class: cpu_targets.h leaves those targets out.
+#include <limits>
+
 #include <hwy/highway.h>
 
 #if defined(TETRALUX_CPU_SIMD_H) == defined(HWY_TARGET_TOGGLE)
@@ -163,6 +165,11 @@ HWY_INLINE float largest(real a) {
     return hn::GetLane(hn::MaxOfLanes(FloatTag(), a.v));
 }
 
+/// Lanes that are no number: what a kernel cannot vouch for, which is composed again in double (exact_repair.h).
+HWY_INLINE real unsure() {
+    return hn::Set(FloatTag(), std::numeric_limits<float>::quiet_NaN());
+}
+
 /// 1/a to about 1e-7: the hardware's estimate and one Newton step (none needed where the estimate is a full division).
 HWY_INLINE real reciprocal(real a) {
     const auto estimate = hn::ApproximateReciprocal(a.v);
@@ -185,6 +192,7 @@ struct wide {
     wide() = default;
     HWY_INLINE wide(hn::Vec<DoubleTag> lanes) : v(lanes) {}
     HWY_INLINE explicit wide(double value) : v(hn::Set(DoubleTag(), value)) {}
+    HWY_INLINE explicit wide(float value) : wide(static_cast<double>(value)) {}
 };
 using wide_mask = hn::Mask<DoubleTag>;
 TETRALUX_LANE_OPERATIONS(wide, wide_mask)
@@ -194,6 +202,9 @@ HWY_INLINE wide operator*(wide a, wide b) {
 }
 HWY_INLINE wide round(wide a) {
     return hn::Round(a.v);
+}
+HWY_INLINE wide clamp(wide a, wide low, wide high) {
+    return hn::Min(hn::Max(a.v, low.v), high.v);
 }
 HWY_INLINE wide copySign(wide magnitude, wide sign) {
     return hn::CopySign(magnitude.v, sign.v);

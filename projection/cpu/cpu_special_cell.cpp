@@ -21,6 +21,19 @@ void takeRowsOfCells(const TileFrame& frame, std::span<const TileEntry> entries,
     }
 }
 
+/// Cells about the eye reach far over the image, near it in some places and far from it in others.
+static void keepInDouble(const ProjectedCell& cell, double offsetX, double offsetY, std::size_t j, SteepCells& steep) {
+    steep.is[j] = 1.0f;
+    for (std::size_t k = 0; k < 4; ++k)
+        for (std::size_t i = 0; i < 3; ++i) steep.plane[k][i][j] = cell.plane[k][i];
+    steep.offsetX[j] = offsetX;
+    steep.offsetY[j] = offsetY;
+    steep.scalar[j] = cell.scalar;
+    steep.scalarPerX[j] = cell.scalarPerX;
+    steep.scalarPerY[j] = cell.scalarPerY;
+    steep.scalarPerRho[j] = cell.scalarPerRho;
+}
+
 bool rectangleAtEye(const TileFrame& frame, const std::array<CameraPoint, 4>& corners, PixelRect& rect) {
     std::array<glm::dvec3, 4> points;
     for (std::size_t k = 0; k < 4; ++k) points[k] = {corners[k].x, corners[k].y, corners[k].z};
@@ -69,6 +82,8 @@ void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int
         for (std::size_t i = 0; i < 3; ++i) batch.plane[k][i][j] = static_cast<float>(cell.plane[k][i]);
     }
     batch.frontMask[j] = fronts;
+    keepInDouble(cell, tileX - frame.centre.x - reference.imageX, tileY - frame.centre.y - reference.imageY, j,
+                 batch.steep);
     batch.scalar[j] = static_cast<float>(cell.scalar);
     batch.scalarPerX[j] = static_cast<float>(cell.scalarPerX);
     batch.scalarPerY[j] = static_cast<float>(cell.scalarPerY);
@@ -76,6 +91,7 @@ void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int
     batch.scale[j] = static_cast<float>(reference.depth);
     batch.offsetX[j] = static_cast<float>(tileX - frame.centre.x - reference.imageX);
     batch.offsetY[j] = static_cast<float>(tileY - frame.centre.y - reference.imageY);
+    batch.restX[j] = batch.restY[j] = 0.0f;
     const auto depths = depthBounds(frame.depthReference, reference.depth, reference.perDepth, deepest, deepest, false);
     batch.rhoNear[j] = static_cast<float>(largestRho);
     batch.rhoFar[j] = static_cast<float>(depths.rhoFar - 1e-6);

@@ -12,6 +12,15 @@
 
 namespace tetralux::projection {
 
+/// What is kept in double of cells a face of which is so steep to the view, or so close to others, that floats would
+/// misjudge how far rays run in them (cpu_steep_cell.h).
+struct SteepCells {
+    static constexpr std::size_t capacity = 8;
+    float is[capacity];  ///< not 0: of this cell the rest is set
+    double plane[4][3][capacity], offsetX[capacity], offsetY[capacity];
+    double scalar[capacity], scalarPerX[capacity], scalarPerY[capacity], scalarPerRho[capacity];
+};
+
 /// Cells of a tile, set up: the record of projection/cells/cell_interval.glsl with the tile's first pixel as origin of
 /// the offsets.
 struct CellBatch {
@@ -22,6 +31,7 @@ struct CellBatch {
     alignas(64) Lanes<float> plane[4][3];
     Lanes<std::uint32_t> frontMask;  ///< Σ 2^k over the faces that bound rho from above
     Lanes<float> offsetX, offsetY;   ///< dx, dy of the tile's first pixel
+    Lanes<float> restX, restY;       ///< and what of them float leaves, which counts near the cell
     Lanes<float> scalar, scalarPerX, scalarPerY, scalarPerRho, scalarLow, scalarHigh;
     Lanes<float> scale;
     Lanes<float> rhoNear, rhoFar;  ///< of the cell's nearest (or the eye's) and deepest corner
@@ -31,6 +41,7 @@ struct CellBatch {
     Lanes<float> normal[3], gradient;  ///< unit, as (right, down, forward); scene scalars per scene length
     Lanes<float> eyeWeight[4];         ///< barycentric coordinates of the eye (orthographic: their rates per rho)
     Lanes<std::int32_t> corner[4];     ///< rows of attributes, in the order of the planes: point numbers
+    SteepCells steep;
     alignas(64) std::int32_t begin[capacity][2], end[capacity][2];  ///< pixels (x, y) within the tile
 };
 

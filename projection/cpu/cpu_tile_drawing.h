@@ -14,6 +14,7 @@
 #include <projection/cpu/cpu_look.h>
 #include <projection/cpu/cpu_segment.h>
 #include <projection/cpu/cpu_shading.h>
+#include <projection/cpu/cpu_steep_cell.h>
 #include <projection/cpu/cpu_tile.h>
 #include <projection/cpu/cpu_tile_buffers.h>
 
@@ -163,11 +164,14 @@ private:
     template <CellShows shows>
     HWY_INLINE void drawBlocks(const CellBlocks& cell) {
         for (int x = cell.x0; x < cell.x1; x += columnWidth) {
-            const real dx = laneX_ + real(batch_.offsetX[cell.j] + static_cast<float>(x));
+            const real dx = laneX_ + real((batch_.offsetX[cell.j] + static_cast<float>(x)) + batch_.restX[cell.j]);
             for (int y = cell.y0; y < cell.y1; y += rows) {
-                const real dy = laneY_ + real(batch_.offsetY[cell.j] + static_cast<float>(y));
+                const real dy = laneY_ + real((batch_.offsetY[cell.j] + static_cast<float>(y)) + batch_.restY[cell.j]);
                 real in, out;
-                cellInterval(batch_, cell.j, *cell.order, dx, dy, in, out);
+                if (HWY_UNLIKELY(batch_.steep.is[cell.j] != 0.0f))
+                    SteepRays(batch_, cell.j, x, y).interval(in, out);
+                else
+                    cellInterval(batch_, cell.j, *cell.order, dx, dy, in, out);
                 drawBlock<shows>(cell.j, placeInTile(x, y), x, y, dx, dy, in, out, cell.first, cell.last);
             }
         }
@@ -196,7 +200,14 @@ private:
         const std::size_t j = block.j, at = block.at;
         const real dx = block.dx, dy = block.dy;
         real &in = block.in, &out = block.out;
-        mask live = in > out;
+        const cell_real scale{look == Look::General ? batch_.scale[j] : look_.lengthScale};
+        const real rayLength = loadAt(px_.rayLength + at);
+        const bool steep = batch_.steep.is[j] != 0.0f;
+        Segments segments;
+        segments.live = in > out;
+        if (HWY_UNLIKELY(steep))
+            SteepRays(batch_, j, block.x, block.y).cut(in, out, scale.value, rayLength, frame_.orthographic, segments);
+        mask& live = segments.live;
         const real t = loadAt(px_.t + at);
         if constexpr (colors || Kind == TileKind::Depth)
             live = both(live, t > real(frame_.earlyTermination ? leastTransmittance : -1.0f));
@@ -207,15 +218,15 @@ private:
         in = keep(live, in);
         out = keep(live, out);
 
-        Segments segments;
-        segments.live = live;
         const cell_real scalar{batch_.scalar[j]}, perX{batch_.scalarPerX[j]}, perY{batch_.scalarPerY[j]},
-            perRho{batch_.scalarPerRho[j]}, low{batch_.scalarLow[j]}, high{batch_.scalarHigh[j]},
-            scale{look == Look::General ? batch_.scale[j] : look_.lengthScale};
-        const real rayLength = loadAt(px_.rayLength + at);
+            perRho{batch_.scalarPerRho[j]}, low{batch_.scalarLow[j]}, high{batch_.scalarHigh[j]};
         block.rayLength = rayLength;
         real across(0.0f);
-        if (HWY_UNLIKELY(frame_.orthographic)) {
+        if (!frame_.orthographic) across = perX * dx + perY * dy;
+        if (HWY_UNLIKELY(steep)) {
+            segments.length = keep(live, segments.length);
+            segments.back = select(live, segments.back, segments.front);
+        } else if (HWY_UNLIKELY(frame_.orthographic)) {
             segments.front = scalarOrthographic(scalar, perX, perY, perRho, dx, dy, in, low, high);
             segments.back = scalarOrthographic(scalar, perX, perY, perRho, dx, dy, out, low, high);
             segments.length = segmentLengthOrthographic(scale, in, out);
@@ -223,7 +234,6 @@ private:
             const real towardsIn = real(1.0f) + in, towardsOut = real(1.0f) + out;
             const real inverse = reciprocal(towardsIn * towardsOut);
             const real ratioIn = inverse * towardsOut, ratioOut = inverse * towardsIn;
-            across = perX * dx + perY * dy;
             segments.front = scalarOfRatio(scalar, across, perRho, in, ratioIn, low, high);
             segments.back = scalarOfRatio(scalar, across, perRho, out, ratioOut, low, high);
             segments.length = segmentLengthOfRatios(scale, in, out, ratioIn, ratioOut, rayLength);

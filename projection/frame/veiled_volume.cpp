@@ -59,6 +59,7 @@ void add(const FrameReport& part, FrameReport& whole) {
     whole.fragments += part.fragments;
     whole.frameMilliseconds += part.frameMilliseconds;
     whole.pixelsRepaired += part.pixelsRepaired;
+    for (const auto& [doubt, count] : part.repairedBecause) whole.repairedBecause[doubt] += count;
     whole.pixelsWrong += part.pixelsWrong;
     whole.tileEntries += part.tileEntries;
     whole.tileEntriesSaved += part.tileEntriesSaved;

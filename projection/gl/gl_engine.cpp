@@ -143,7 +143,8 @@ public:
         if (modeLooksUp(mode())) {
             table_ = buildTable(scene, function_, units_);
             const bool misses = table_->measuredError > wantedTableError() && scene.settings.table.size == 0;
-            if (misses || takesSamples(scene)) walked_ = walkedPieces(function_, *table_);
+            const bool blurs = asksMeanColors(scene) && nodesCloserThanTexels(function_, *table_);
+            if (misses || blurs || takesSamples(scene)) walked_ = walkedPieces(function_, *table_);
             prepare_["table"] = watch.lap();
             const auto& shading = scene.settings.shading;
             fullLight_ = shading.lit() && !shading.plain();
@@ -463,7 +464,7 @@ Image GlEngine::render(const View& view, FrameReport& report) {
     auto& stages = report.stageMilliseconds;
     CameraFrame frame = sampledFrame(view.camera, edgeOnPlanes_);
     frame.depthOrigin = depthOriginOf(scene_.mesh->bounds, frame, units_);
-    report.samplesBeside = frame.sampleShift == EdgeOnPlanes::widely;
+    report.floatSamples = frame.sampleShift;
     const CurrentGlContext current(*context_);
     report.dataPathReason = path_.reason;
     bool drawn = false;

@@ -101,7 +101,7 @@ vec4 shadedSegment(float front, float back, float len, float fallSide, vec3 view
     depth = gradient.w > 0.0 || TETRALUX_SMOOTH_SILHOUETTE != 0 ? sharpened : depth;
 #endif
 #if TETRALUX_GRADIENT_OPACITY
-    float byGradient = gradientOpacity * gradient.w;  // Kraus 2005, Equation 18
+    float byGradient = gradientOpacity * gradient.w;  // Levoy's, ShadingSettings::gradientOpacity
     depth *= byGradient;
     plain *= byGradient;
 #endif
@@ -113,6 +113,17 @@ vec4 shadedSegment(float front, float back, float len, float fallSide, vec3 view
     float opacity = opacityOf(depth);
 #if TETRALUX_APPROXIMATE_SILHOUETTE
     if (gradient.w > 0.0 || TETRALUX_SMOOTH_SILHOUETTE != 0) opacity = approximateSilhouetteOpacity(opacityOf(plain), plain, depth);
+#endif
+#if TETRALUX_SILHOUETTE && !TETRALUX_SMOOTH_SILHOUETTE && !TETRALUX_DATA_SPACE && TETRALUX_MODE != TETRALUX_MODE_FIRST_HIT
+    // Floats hold the cosine n·d to some 2e-7. Where they do not hold what silhouettes make of it to 1e-4 the pixel is no number, and is
+    // composed again in double (exact_repair.h).
+    float change = depth * 2e-7 / max(abs(cosine), 1e-30);
+#if TETRALUX_MODE == TETRALUX_MODE_ADDITIVE
+    change /= max(depth, 1.0);
+#else
+    change *= exp(-min(depth, 80.0));
+#endif
+    if (abs(cosine) < 2e-3 && change > 1e-4 && gradient.w > 0.0) return vec4(uintBitsToFloat(0x7fc00000u));
 #endif
     vec3 color = segment.meanColor;
 #if TETRALUX_LIGHTS

@@ -27,6 +27,21 @@ std::vector<double> breaksOf(const preint::TransferFunction& function, const glm
 
 }  // namespace
 
+bool nodesCloserThanTexels(const preint::TransferFunction& function, const preint::PreintegrationTable& table) {
+    for (std::size_t zone = 0; zone < table.zones.size(); ++zone) {
+        const auto begin = table.texelScalars.begin() + static_cast<std::ptrdiff_t>(zone) * table.size,
+                   end = begin + table.size;
+        std::ptrdiff_t last = -1;  // texels below the last node, where that is none's own
+        for (double scalar : breaksOf(function, table.zones[zone])) {
+            const auto above = std::lower_bound(begin, end, scalar);
+            const bool own = above != end && static_cast<float>(*above) == static_cast<float>(scalar);
+            if (!own && above - begin == last) return true;
+            last = own ? -1 : above - begin;
+        }
+    }
+    return false;
+}
+
 WalkedPieces walkedPieces(const preint::TransferFunction& function, const preint::PreintegrationTable& table) {
     const preint::ExactIntegral exact(function);
     std::vector<glm::vec4> ranges, low, high;

@@ -20,6 +20,10 @@ struct WalkedPieces {
     int count() const { return zonePiece.back(); }
 };
 
+/// Whether two of the function's nodes lie between two neighbouring texels: the few segments there see none of the
+/// table's kinks, and no error that was measured is theirs.
+bool nodesCloserThanTexels(const preint::TransferFunction& function, const preint::PreintegrationTable& table);
+
 /// `function` in scene units, cut also where the table's zones end. What float cannot tell apart makes no piece.
 WalkedPieces walkedPieces(const preint::TransferFunction& function, const preint::PreintegrationTable& table);
 

@@ -7,20 +7,31 @@
 
 #include <mesh/tet/tet_mesh.h>
 #include <projection/core/camera.h>
+#include <projection/core/scene.h>
 
 namespace tetralux::projection {
 
-/// Pixels from the image of a face that is seen edge-on within which float planes of its two cells do not agree on which
-/// side a ray passes: both would claim it, or neither. What a face is high at most to count as edge-on.
-inline constexpr double edgeOnDistance = 0x1p-13;
+/// Faces that are seen edge-on, or nearly so. The length of a ray in a cell changes from one side of such a face to the
+/// other within a small part of a pixel: floats, and samples beside the centres, stand elsewhere within it than the
+/// reference's rays, or on the other side.
+class EdgeOnFaces {
+public:
+    explicit EdgeOnFaces(const Scene& scene);
 
-/// Pixels (y·width + x, in no order, some twice) whose ray runs that near to a face of one of `cells` that is seen
-/// edge-on. `samplesBeside`: samples stand EdgeOnPlanes::widely beside the centres, on the side on which those of the
-/// reference do, so that floats tell it for faces upon which centres lie exactly, unless these are very long.
-std::vector<std::uint32_t> edgeOnPixels(const mesh::ScalarMesh& mesh, const CameraFrame& frame,
-                                        std::span<const mesh::CellIndex> cells, bool samplesBeside);
+    /// Pixels (y·width + x, in no order, some twice) in which that may show: the ray through the centre runs through,
+    /// or within float's rounding beside, such a face of one of `cells`, steep enough that where it stands there makes
+    /// opacity err by more than `largestError`. `frame.sampleShift`: where the engine's samples stand.
+    std::vector<std::uint32_t> pixels(const CameraFrame& frame, std::span<const mesh::CellIndex> cells) const;
 
-/// The cells of the mesh that may have such a face, and a few more: for engines that do not find them by themselves.
-std::vector<mesh::CellIndex> cellsSeenEdgeOn(const mesh::ScalarMesh& mesh, const CameraFrame& frame);
+    /// The cells of the mesh that may have such a face, and a few more: for engines that do not find them by
+    /// themselves.
+    std::vector<mesh::CellIndex> candidates(const CameraFrame& frame) const;
+
+private:
+    double visiblePerLength(mesh::CellIndex cell) const;
+
+    Scene scene_;
+    bool anythingShows_;  ///< however little of it a ray meets
+};
 
 }  // namespace tetralux::projection

@@ -6,9 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include <tbb/parallel_sort.h>
-
 #include <projection/cells/cell_setup.h>
+#include <projection/cells/edge_on_planes.h>
 #include <projection/core/wrapped_engine.h>
 #include <projection/reference/reference_ray_caster.h>
 #include <projection/repair/edge_on_faces.h>
@@ -16,6 +15,7 @@
 #include <projection/repair/float_limits.h>
 #include <projection/repair/isosurface_outlines.h>
 #include <projection/repair/isosurface_ties.h>
+#include <projection/repair/uncertain_pixels.h>
 
 namespace tetralux::projection {
 
@@ -27,7 +27,11 @@ constexpr int blockMargin = 16;
 class RepairedEngine final : public WrappedEngine {
 public:
     RepairedEngine(std::unique_ptr<Engine> engine, const Scene& scene)
-        : WrappedEngine(std::move(engine)), scene_(scene), gathers_(gathersOf(scene.settings.mode)), caster_(scene) {
+        : WrappedEngine(std::move(engine)),
+          scene_(scene),
+          gathers_(gathersOf(scene.settings.mode)),
+          edgeOnFaces_(scene),
+          caster_(scene) {
         exact_ = engine_->name() == "reference";
         if (exact_) return;
         beyondFloat_ = cellsBeyondFloat(*scene.mesh, scene.transferFunction, integralOf(scene.settings.mode),
@@ -38,16 +42,20 @@ public:
 
     Image render(const View& view, FrameReport& report) override {
         Image image = engine_->render(view, report);
+        if (exact_) {
+            requireFinite(image, "picture");
+            return image;
+        }
         const auto start = std::chrono::steady_clock::now();
-        doubtMore(view.camera, report);
+        const UncertainPixels uncertain = uncertainPixels(view.camera, image, report);
         if (scene_.settings.order == OrderMethod::Centroid)  // asked for to see what it costs and what it spoils
-            report.pixelsWrong += report.doubtfulPixels.size();
+            report.pixelsWrong += repairWithoutOrder(view, uncertain, image, report);
         else
-            repair(view, report, image);
-        mendWhatIsNotFinite(view, report, image);
+            repair(view, uncertain, image, report);
+        requireFinite(image, "picture");  // what is beyond float in double too is no picture
         const double spent =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-        if (outlines_ || !report.doubtfulPixels.empty()) report.stageMilliseconds["repair"] = spent;
+        if (outlines_ || uncertain.any()) report.stageMilliseconds["repair"] = spent;
         report.frameMilliseconds += spent;
         return image;
     }
@@ -59,6 +67,7 @@ private:
                 .fromTable = fromTable,
                 .silhouettes = settings.shading.silhouette,
                 .addsUp = addsUp(mode),
+                .gradients = settings.shading.needsGradient() || addsUp(mode) || mode == Mode::FirstHit,
                 .gathers = gathersOf(mode)};
     }
 
@@ -82,83 +91,66 @@ private:
                scene_.settings.contributions.perCell;
     }
 
-    /// No picture holds a value that is not finite: what float made of a pixel is composed again in double, and what is
-    /// beyond float even so is no picture.
-    void mendWhatIsNotFinite(const View& view, FrameReport& report, Image& image) const {
-        std::vector<std::uint32_t> pixels = pixelsNotFinite(image);
-        if (pixels.empty()) return;
-        if (!exact_) {
-            caster_.renderPixels(view, pixels, image);
-            report.pixelsRepaired += pixels.size();
-            pixels = pixelsNotFinite(image);
-        }
-        if (!pixels.empty()) requireFinite(image, "picture");
+    void repair(const View& view, const UncertainPixels& uncertain, Image& image, FrameReport& report) const {
+        if (!uncertain.any()) return;
+        const std::vector<std::uint32_t> pixels = uncertain.ascending();
+        caster_.renderPixels(view, pixels, image);
+        report.pixelsRepaired += pixels.size();
+        for (const auto& [doubt, count] : uncertain.byDoubt()) report.repairedBecause[doubt] += count;
     }
 
-    void repair(const View& view, FrameReport& report, Image& image) const {
-        if (report.doubtfulPixels.empty()) return;
-        caster_.renderPixels(view, report.doubtfulPixels, image);
-        report.pixelsRepaired += report.doubtfulPixels.size();
+    /// Mends only what is no number; how many other pixels are in doubt.
+    std::uint64_t repairWithoutOrder(const View& view, const UncertainPixels& uncertain, Image& image,
+                                     FrameReport& report) const {
+        UncertainPixels unvouched(image.pixels.size());
+        unvouched.add(Doubt::NotANumber, pixelsNotFinite(image));
+        repair(view, unvouched, image, report);
+        return uncertain.ascending().size() - unvouched.ascending().size();
     }
 
-    /// Adds the pixels of cells beyond float, those where floats or samples beside the centres may miss outlines and,
-    /// where single cells show, those where rounding would say which a ray meets.
-    void doubtMore(const Camera& camera, FrameReport& report) const {
-        const CameraFrame frame = cameraFrame(camera);
-        std::vector<std::uint32_t>& pixels = report.doubtfulPixels;
-        const std::size_t known = pixels.size();
-        const auto add = [&](const std::vector<std::uint32_t>& more) {
-            pixels.insert(pixels.end(), more.begin(), more.end());
-        };
-        if (exact_) return;
-        if (report.samplesBeside) add(tiedPixels(scene_, frame));
+    /// Those that the engine names or that are no number, as it makes what it cannot vouch for; those of cells beyond
+    /// float; those where floats or samples beside the centres may miss outlines and, where single cells show, those
+    /// where rounding would say which a ray meets.
+    UncertainPixels uncertainPixels(const Camera& camera, const Image& image, const FrameReport& report) const {
+        CameraFrame frame = cameraFrame(camera);
+        UncertainPixels pixels(image.pixels.size());
+        pixels.add(Doubt::Order, report.doubtfulPixels);
+        pixels.add(Doubt::NotANumber, pixelsNotFinite(image));
         if (touchingShows()) {
-            add(tiedEdgePixels(scene_, frame));
+            pixels.add(Doubt::EdgeMet, tiedEdgePixels(scene_, frame));
             if (!frame.orthographic) addEyeContact(frame, pixels);
         }
-        add(edgeOnPixels(*scene_.mesh, frame,
-                         report.cellsEdgeOn ? *report.cellsEdgeOn : cellsSeenEdgeOn(*scene_.mesh, frame),
-                         report.samplesBeside));
-        if (outlines_) add(outlines_->pixels(frame));
-        if (!beyondFloat_.empty()) add(pixelsOf(beyondFloat_, blockMargin, frame));
-        if (pixels.size() == known) return;
-        tbb::parallel_sort(pixels.begin(), pixels.end());
-        pixels.erase(std::unique(pixels.begin(), pixels.end()), pixels.end());
-    }
-
-    /// Cells that end or begin right where rays do. In the first hit any of them may be taken for what is hit; elsewhere
-    /// only those count before which there may be nothing.
-    void addEyeContact(const CameraFrame& frame, std::vector<std::uint32_t>& pixels) const {
-        const EyeContact contact = eyeContact(*scene_.mesh, frame.eye);
-        if (contact.cells.empty() || !(contact.onBoundary || scene_.settings.mode == Mode::FirstHit ||
-                                         scene_.settings.contributions.perCell)) return;
-        const std::vector<std::uint32_t> more = pixelsOf(contact.cells, 0, frame);
-        pixels.insert(pixels.end(), more.begin(), more.end());
-    }
-
-    /// The pixels of cells. Marked first: such cells cover the same pixels many times.
-    std::vector<std::uint32_t> pixelsOf(const std::vector<mesh::CellIndex>& cells, int margin,
-                                        const CameraFrame& frame) const {
-        std::vector<bool> doubtful(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
-        mark(cells, margin, frame, doubtful);
-        std::vector<std::uint32_t> pixels;
-        for (std::uint32_t pixel = 0; pixel < doubtful.size(); ++pixel)
-            if (doubtful[pixel]) pixels.push_back(pixel);
+        if (outlines_) pixels.add(Doubt::Outline, outlines_->pixels(frame));
+        if (!beyondFloat_.empty()) addPixelsOf(beyondFloat_, blockMargin, Doubt::BeyondFloat, frame, pixels);
+        if (!report.floatSamples) return pixels;
+        frame.sampleShift = *report.floatSamples;
+        if (frame.sampleShift.x > EdgeOnPlanes::barely.x) pixels.add(Doubt::Outline, tiedPixels(scene_, frame));
+        pixels.add(Doubt::FaceEdgeOn, edgeOnFaces_.pixels(frame, edgeOnFaces_.candidates(frame)));
         return pixels;
     }
 
+    /// Cells that end or begin right where rays do. In the first hit any of them may be taken for what is hit;
+    /// elsewhere only those count before which there may be nothing.
+    void addEyeContact(const CameraFrame& frame, UncertainPixels& pixels) const {
+        const EyeContact contact = eyeContact(*scene_.mesh, frame.eye);
+        if (contact.cells.empty() ||
+            !(contact.onBoundary || scene_.settings.mode == Mode::FirstHit || scene_.settings.contributions.perCell))
+            return;
+        addPixelsOf(contact.cells, 0, Doubt::EyeTouched, frame, pixels);
+    }
+
     /// Where a cell beyond float ends is beyond float too, and engines look at whole blocks of pixels: hence a margin.
-    void mark(const std::vector<mesh::CellIndex>& cells, int margin, const CameraFrame& frame,
-              std::vector<bool>& doubtful) const {
+    void addPixelsOf(const std::vector<mesh::CellIndex>& cells, int margin, Doubt doubt, const CameraFrame& frame,
+                     UncertainPixels& pixels) const {
         const CellProjector projector(*scene_.mesh, sceneUnits(*scene_.mesh), frame);
-        const auto width = static_cast<std::size_t>(frame.width);
         for (mesh::CellIndex cell : cells) {
             PixelRect rect;
             if (projector.bounds(cell, rect) == SkipReason::OutsideView) continue;
             const int x0 = std::max(0, rect.x0 - margin), x1 = std::min(frame.width, rect.x1 + margin);
             for (int y = std::max(0, rect.y0 - margin); y < std::min(frame.height, rect.y1 + margin); ++y)
                 for (int x = x0; x < x1; ++x)
-                    doubtful[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = true;
+                    pixels.mark(doubt, static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame.width) +
+                                           static_cast<std::uint32_t>(x));
         }
     }
 
@@ -167,6 +159,7 @@ private:
     bool exact_ = false;  // the engine is the reference
     std::vector<mesh::CellIndex> beyondFloat_;
     std::optional<IsosurfaceOutlines> outlines_;
+    const EdgeOnFaces edgeOnFaces_;
     ReferenceRayCaster caster_;
 };
 

@@ -20,8 +20,8 @@
 // follows from the gradient then.) In others it falls to rays that nearly keep their scalar, and what such a ray misses
 // in one cell it meets in the next, which has the same scalar where they touch.
 //
-// On a ramp of colour of slope k the colour errs by k·ε, in the share of the cell's scalars that the ramp has. At a jump
-// floats stand on the other side of it within ε: a share ε/w of the cell, all of it where w is below ε.
+// On a ramp of colour of slope k the colour errs by k·ε, in the share of the cell's scalars that the ramp has. At a
+// jump floats stand on the other side of it within ε: a share ε/w of the cell, all of it where w is below ε.
 #include <projection/repair/float_limits.h>
 
 #include <algorithm>
@@ -33,14 +33,17 @@
 #include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
 
+#include <projection/cells/cell_constants.h>
 #include <projection/core/lowered_isosurfaces.h>
 #include <projection/core/transfer_support.h>
+#include <projection/repair/cell_measures.h>
 
 namespace tetralux::projection {
 
 namespace {
 
-constexpr double largestHiddenError = 1e-3, largestSummedError = 1e-4;  // of depth: where it hides, and where it adds up
+constexpr double largestHiddenError = 1e-3,
+                 largestSummedError = 1e-4;     // of depth: where it hides, and where it adds up
 constexpr double planeError = 1e-7;             // of the longest edge
 constexpr double obliqueness = 3.0;             // of the error of a length over that of a plane
 constexpr double largestScalarError = 3e-4;     // of a cell's range, where an isosurface may be crossed
@@ -50,38 +53,9 @@ constexpr double opaqueDepth = 20.0;            // exp(−20) is below float's s
 constexpr double mostOblique = 16.0;
 constexpr double largestTieShift = 1e-2;  // of a cell's range, by which an isosurface stands elsewhere in float
 constexpr double largestColorError = 1e-4;
-constexpr double leastFloat = 2e-38;  // scene scalars below it are none to float
-constexpr double levelFace = 64.0;  // a face whose scalars differ by fewer of its errors is level to float
-
-struct CellScalars {
-    double low, high;
-    double width() const { return high - low; }
-};
-
-CellScalars scalarsOf(const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {
-    const glm::dvec2 range = scalarRange(mesh, cell);
-    return {range.x, range.y};
-}
-
-struct CellShape {
-    double longestEdge, leastAltitude;
-};
-
-CellShape shapeOf(const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {
-    std::array<glm::dvec3, 4> p;
-    for (std::size_t k = 0; k < 4; ++k) p[k] = mesh.positions[mesh.cells[cell][k]];
-    double longest = 0, largestFace = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t j = i + 1; j < 4; ++j) longest = std::max(longest, glm::distance(p[i], p[j]));
-    for (const auto& face : mesh::faceVertices) {
-        const glm::dvec3& a = p[static_cast<std::size_t>(face[0])];
-        const glm::dvec3 ab = p[static_cast<std::size_t>(face[1])] - a, ac = p[static_cast<std::size_t>(face[2])] - a;
-        largestFace =
-            std::max(largestFace, glm::length(glm::cross(ab / longest, ac / longest)));  // in range for any size
-    }
-    const double volume = std::abs(mesh::sixVolumes(p[0] / longest, p[1] / longest, p[2] / longest, p[3] / longest));
-    return {longest, largestFace > 0 ? longest * volume / largestFace : 0.0};
-}
+constexpr double largestHiddenShare = 0.25;  // of a cell, which float takes for nothing or for something
+constexpr double leastFloat = 2e-38;         // scene scalars below it are none to float
+constexpr double levelFace = 64.0;           // a face whose scalars differ by fewer of its errors is level to float
 
 /// How far it is through the mesh if it is a sheet: its volume over the square of its extent.
 double thicknessOf(const mesh::ScalarMesh& mesh) {
@@ -91,20 +65,6 @@ double thicknessOf(const mesh::ScalarMesh& mesh) {
         volume += std::abs(mesh::sixVolumes(at(0), at(1), at(2), at(3))) / 6.0;
     }
     return volume * mesh.bounds.diagonal();
-}
-
-/// Extinction among the scalars of a cell.
-struct Extinctions {
-    double least, most;
-};
-
-Extinctions extinctionsOf(const preint::TransferFunction& function, const CellScalars& scalars) {
-    const double a = function.extinctionAt(scalars.low), b = function.extinctionAt(scalars.high);
-    Extinctions found{std::min(a, b), std::max(a, b)};
-    for (const auto& node : function.extinction)
-        if (node.scalar >= scalars.low && node.scalar <= scalars.high)
-            found = {std::min(found.least, node.extinction), std::max(found.most, node.extinction)};
-    return found;
 }
 
 /// One kind of picture of one mesh.
@@ -135,12 +95,13 @@ public:
         colorsMayErr_ = steepestColor * range_ * scalarRounding > largestColorError;
         colorsMayErrInFlatCells_ = depthMayErr_ && steepestColor > 0;
         jumps_ = jumpsOf(function);
+        support_ = extinctionSupport(function);
     }
 
     bool anything() const {
         if (use_.gathers == FloatUse::Gathers::Mean) return true;
         if (use_.gathers == FloatUse::Gathers::Extreme) return function_.color.size() > 1;
-        if (use_.gathers == FloatUse::Gathers::Crossings) return !function_.isosurfaces.empty();
+        if (use_.gathers == FloatUse::Gathers::Crossings) return !function_.isosurfaces.empty() || !support_.empty();
         return depthMayErr_ || rampsMayErr_ || colorsMayErr_ || !jumps_.empty() || use_.scalarsShow ||
                !function_.isosurfaces.empty();
     }
@@ -153,13 +114,14 @@ public:
             case FloatUse::Gathers::Mean:
                 return missesMean(cell);
             case FloatUse::Gathers::Crossings:
-                return missesIsosurface(cell, scalars);
+                return missesIsosurface(cell, scalars) || missesBeginning(cell, scalars);
             case FloatUse::Gathers::Light:
                 break;
         }
         return (depthMayErr_ && missesDepth(cell, scalars)) || (rampsMayErr_ && missesRamp(cell, scalars)) ||
                ((colorsMayErr_ || colorsMayErrInFlatCells_) && missesColor(cell, scalars)) ||
-               missesJump(cell, scalars) || missesIsosurface(cell, scalars);
+               missesJump(cell, scalars) || missesIsosurface(cell, scalars) ||
+               (use_.scalarsShow && missesBeginning(cell, scalars));
     }
 
 private:
@@ -265,6 +227,22 @@ private:
         return false;
     }
 
+    /// Whether floats do not tell well enough where in the cell extinction begins or ends: for distances to there, how
+    /// far it is; where anything counts for something, whether there is any.
+    bool missesBeginning(mesh::CellIndex cell, const CellScalars& scalars) const {
+        const double error = scalarError(scalars);
+        const auto meets = [&](double scalar) {
+            return scalar >= scalars.low - error && scalar <= scalars.high + error &&
+                   !(scalars.width() == 0 && scalar == scalars.low);  // equal numbers stay equal
+        };
+        if (std::none_of(support_.begin(), support_.end(),
+                         [&](const ShownScalars& shown) { return meets(shown.low) || meets(shown.high); }))
+            return false;
+        const double share = scalars.width() > error ? error / scalars.width() : 1.0;
+        if (use_.gathers != FloatUse::Gathers::Crossings) return share > largestHiddenShare;
+        return share * shapeOf(mesh_, cell).longestEdge > largestColorError * mesh_.bounds.diagonal();
+    }
+
     bool missesExtreme(mesh::CellIndex cell, const CellScalars& scalars) const {
         const CellShape shape = shapeOf(mesh_, cell);
         return colorError(scalars, flatScalarError(shape, scalars)) > largestColorError;
@@ -277,7 +255,8 @@ private:
 
     /// By how much the cell's scalars err on their way to a ray.
     double scalarError(const CellScalars& scalars) const {
-        return scalarRounding * std::max(scalars.high - mesh_.scalarMin, 0.0) + leastFloat * range_;
+        return scalarRounding * std::max(scalars.high - mesh_.scalarMin, 0.0) +
+               (use_.gradients ? leastRise : leastFloat) * range_;
     }
 
     bool missesDepth(mesh::CellIndex cell, const CellScalars& scalars) const {
@@ -359,8 +338,8 @@ private:
                (crossed && missesLevelFace(cell, flatScalarError(shape, scalars)));
     }
 
-    /// Whether an isosurface lies within the scalar's error of a face that is level, or nearly so: then its two cells do
-    /// not agree in many pixels on which of them it crosses. Isosurfaces stand lower in float by what is no matter.
+    /// Whether an isosurface lies within the scalar's error of a face that is level, or nearly so: then its two cells
+    /// do not agree in many pixels on which of them it crosses. Isosurfaces stand lower in float by what is no matter.
     bool missesLevelFace(mesh::CellIndex cell, double error) const {
         const double tie = floatTie * range_;
         if (error <= tie) return false;
@@ -392,6 +371,7 @@ private:
     const double range_, oblique_;
     const double thickness_;  ///< the mesh's volume over its largest extent squared
     std::vector<Jump> jumps_;
+    std::vector<ShownScalars> support_;
     bool depthMayErr_ = false, rampsMayErr_ = false, colorsMayErr_ = false, colorsMayErrInFlatCells_ = false;
 };
 

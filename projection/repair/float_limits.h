@@ -21,6 +21,8 @@ struct FloatUse {
     bool fromTable = false;    ///< segments are looked up in a table
     bool silhouettes = false;  ///< depth is divided by |n·d|, and so are its errors
     bool addsUp = false;       ///< light of all segments counts, however much lies before it
+    bool gradients =
+        false;  ///< the gradient's direction is kept: what rises less than leastRise is made to rise so much
     Gathers gathers = Gathers::Light;
 };
 
@@ -33,8 +35,8 @@ struct FloatUse {
 /// that isosurface_ties.h gives an isosurface in float and in double, and flat cells with a face upon which the scalar
 /// is, nearly, that of an isosurface everywhere. Ramps of extinction and of colour, and jumps: float_limits.cpp;
 /// with `fromTable` also cells in which depth rises by hundreds, unless extinction only rises over the range. Nothing
-/// counts where the whole cell is opaque, but where light adds up. Empty for every scene but those of extreme extinction,
-/// steepness or flatness: engines have the pixels of these cells composed exactly.
+/// counts where the whole cell is opaque, but where light adds up. Empty for every scene but those of extreme
+/// extinction, steepness or flatness: engines have the pixels of these cells composed exactly.
 std::vector<mesh::CellIndex> cellsBeyondFloat(const mesh::ScalarMesh& mesh, const preint::TransferFunction& function,
                                               preint::Integral integral, const FloatUse& use = {});
 

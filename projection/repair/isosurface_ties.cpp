@@ -13,6 +13,7 @@
 
 #include <projection/cells/edge_on_planes.h>
 #include <projection/cells/point_pixel.h>
+#include <projection/core/clip_region.h>
 #include <projection/core/transfer_support.h>
 #include <projection/repair/near_line.h>
 
@@ -21,7 +22,7 @@ namespace tetralux::projection {
 namespace {
 
 /// Pixels from the sample to the farthest line that it may lie behind.
-constexpr double tieDistance = 2.0 * EdgeOnPlanes::widely.x;
+constexpr double tieDistance = 2.0 * EdgeOnPlanes::widest.x;
 
 constexpr Nearness near{0.0, tieDistance}, exact{0.0, exactTie};
 
@@ -62,14 +63,19 @@ public:
           support_(extinctionSupport(scene.transferFunction)),
           integral_(integralOf(scene.settings.mode)),
           everyScalarShows_(scene.settings.mode == Mode::Mip || scene.settings.mode == Mode::Minimum ||
-                            scene.settings.mode == Mode::Average) {}
+                            scene.settings.mode == Mode::Average) {
+        for (const auto& source : scene.mapSources)
+            if (const auto* region = dynamic_cast<const ClipRegion*>(source.get()))
+                cuts_.insert(cuts_.end(), region->halfSpaces().begin(), region->halfSpaces().end());
+    }
 
-    /// Pixels that an edge of the cell, if it shows, passes.
+    /// Pixels that an edge of the cell, if it shows, or of what clip planes leave of it passes.
     void addEdges(mesh::CellIndex cell, Nearness wanted, std::vector<std::uint32_t>& pixels) const {
         std::array<glm::dvec2, 4> at;
         if (!see(scene_.mesh->cells[cell], at) || !shows(cell)) return;
         for (std::size_t i = 0; i < 4; ++i)
             for (std::size_t j = i + 1; j < 4; ++j) addNearLine(at[i], at[j], wanted, frame_, pixels);
+        for (const HalfSpace& cut : cuts_) addCut(cell, cut, wanted, pixels);
     }
 
     void add(mesh::CellIndex cell, std::vector<std::uint32_t>& pixels) const {
@@ -91,6 +97,27 @@ public:
     }
 
 private:
+    /// The lines in which a plane cuts the cell's faces.
+    void addCut(mesh::CellIndex cell, const HalfSpace& cut, Nearness wanted, std::vector<std::uint32_t>& pixels) const {
+        std::array<glm::dvec3, 4> p;
+        std::array<double, 4> above;
+        for (std::size_t k = 0; k < 4; ++k) {
+            p[k] = scene_.mesh->positions[scene_.mesh->cells[cell][k]];
+            above[k] = glm::dot(cut.normal, p[k] - cut.point);
+        }
+        for (const auto& face : mesh::faceVertices) {
+            std::array<glm::dvec2, 2> ends;
+            std::size_t count = 0;
+            for (std::size_t i = 0; i < 3 && count < 2; ++i) {
+                const auto a = static_cast<std::size_t>(face[i]), b = static_cast<std::size_t>(face[(i + 1) % 3]);
+                if ((above[a] < 0) == (above[b] < 0)) continue;
+                const glm::dvec3 fromEye = glm::mix(p[a], p[b], above[a] / (above[a] - above[b])) - frame_.eye;
+                ends[count++] = pixelOf_(fromEye, pixelOf_.depth(fromEye));
+            }
+            if (count == 2) addNearLine(ends[0], ends[1], wanted, frame_, pixels);
+        }
+    }
+
     bool shows(mesh::CellIndex cell) const {
         if (everyScalarShows_) return true;
         const glm::dvec2 scalars = scalarRange(*scene_.mesh, cell);
@@ -114,6 +141,7 @@ private:
     const std::vector<ShownScalars> support_;
     const preint::Integral integral_;
     const bool everyScalarShows_;
+    std::vector<HalfSpace> cuts_;
 };
 
 /// What add(cell, pixels) finds, for every `step`th cell.
@@ -135,9 +163,7 @@ std::vector<std::uint32_t> ofCells(const Scene& scene, mesh::CellIndex step, Add
 std::vector<std::uint32_t> tiedPixels(const Scene& scene, const CameraFrame& frame) {
     if (scene.transferFunction.isosurfaces.empty()) return {};
     const CellTies ties(scene, frame);
-    return ofCells(scene, 1, [&](mesh::CellIndex cell, auto& pixels) {
-        ties.add(cell, pixels);
-    });
+    return ofCells(scene, 1, [&](mesh::CellIndex cell, auto& pixels) { ties.add(cell, pixels); });
 }
 
 std::vector<std::uint32_t> tiedEdgePixels(const Scene& scene, const CameraFrame& frame) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What float does not hold: rays within faces, eyes upon corners and far away, cells too thin, scalars over many decades.
-// In each case the answer is known, or the same scene tells it in benign numbers.
+// What float does not hold: rays within faces, eyes upon corners and far away, cells too thin, scalars over many
+// decades. In each case the answer is known, or the same scene tells it in benign numbers.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +16,7 @@ namespace {
 
 using namespace tetralux::test;
 
-constexpr Threshold exact{2e-6, 2e-5};      // floats of a few segments
+constexpr Threshold exact{2e-6, 2e-5};       // floats of a few segments
 constexpr Threshold integrated{2e-5, 1e-4};  // tables too
 
 Image engineImage(const Scene& scene, const View& view, const std::string& engine) {
@@ -36,14 +36,14 @@ TEST(StressLimits, ARayParallelToAClipPlaneAndOutsideItMeetsNothing) {
             if (orthographic) camera.orthographicHeight = 0.4;
             const Image expected = engineImage(scene, camera, "reference");
             for (int x = 0; x < 9; ++x) ASSERT_EQ(expected.at(x, 4).w, 0.0f);
-            if (mode == Mode::FirstHit && !orthographic) continue;  // a pixel of the next row (README, Known gaps)
             holdEnginesTo(expected, scene, camera, integrated, "parallel to a clip plane");
         }
 }
 
 TEST(StressLimits, FromACornerOfTheMeshRaysThatLeaveMeetNothing) {
     const mesh::ScalarMesh m = boxMesh(3, [](const glm::dvec3& p) { return p.x + 0.3 * p.y; });
-    for (const glm::dvec3& corner : {glm::dvec3(0), glm::dvec3(1, 0, 0), glm::dvec3(0.5, 0.5, 0), glm::dvec3(0, 0.5, 1)})
+    for (const glm::dvec3& corner :
+         {glm::dvec3(0), glm::dvec3(1, 0, 0), glm::dvec3(0.5, 0.5, 0), glm::dvec3(0, 0.5, 1)})
         for (Mode mode : {Mode::Mip, Mode::Minimum, Mode::Average, Mode::Depth, Mode::FirstHit, Mode::Standard})
             for (double beside : {0.0, 1e-9, 1e-7}) {
                 const Scene scene = sceneOf(m, smoothFunction(0, 1.3, 3.0), mode);
@@ -93,8 +93,8 @@ TEST(StressLimits, TheEyesDistanceDoesNotChangeThePicture) {
 }
 
 TEST(StressLimits, IsosurfacesAtLevelFacesOfFlatCells) {
-    // layers that are `flatness` times as wide as high; s = 1 on the planes between, 0 and 2 elsewhere by turns: crossed
-    // once on each way up or down, so that every ray that goes through sees as many as there are layers
+    // layers that are `flatness` times as wide as high; s = 1 on the planes between, 0 and 2 elsewhere by turns:
+    // crossed once on each way up or down, so that every ray that goes through sees as many as there are layers
     for (double flatness : {10.0, 160.0, 1e3, 1e5})
         for (Mode mode : {Mode::Standard, Mode::FirstHit, Mode::Depth, Mode::Additive}) {
             mesh::ScalarMesh m = boxMesh(4, [](const glm::dvec3& p) {
@@ -123,8 +123,8 @@ TEST(StressLimits, CellsTooThinForFloatInEveryMode) {
     mesh::ScalarMesh m = jitteredBoxMesh(5, 0.3, 3, [](const glm::dvec3& p) { return p.x + 2 * p.z; });
     for (glm::dvec3& p : m.positions) p.z *= 1e-5;
     m = finished(std::move(m));
-    for (Mode mode : {Mode::Standard, Mode::Additive, Mode::DataAdditive, Mode::Emission, Mode::Absorption, Mode::Average,
-                      Mode::Mip, Mode::Minimum, Mode::FirstHit, Mode::Depth})
+    for (Mode mode : {Mode::Standard, Mode::Additive, Mode::DataAdditive, Mode::Emission, Mode::Absorption,
+                      Mode::Average, Mode::Mip, Mode::Minimum, Mode::FirstHit, Mode::Depth})
         for (bool lit : {false, true}) {
             if (lit && mode != Mode::Standard && !addsUp(mode)) continue;
             const double strongest = integralOf(mode) == preint::Integral::ScaleInvariant ? 3.0 : 8e5;
@@ -159,10 +159,8 @@ TEST(StressLimits, ScalarsAndNodesOverManyDecades) {
                 for (Mode mode : {Mode::Standard, Mode::Additive, Mode::Emission, Mode::Absorption, Mode::FirstHit,
                                   Mode::Mip, Mode::Average}) {
                     if (offset != 0 && decades != 6) continue;
-                    if (addsUp(mode) && decades == 30) continue;  // off by up to 0.16 (README, Known gaps)
-                    const mesh::ScalarMesh m = boxMesh(4, [&](const glm::dvec3&) {
-                        return offset + std::pow(10.0, -decades * share(random));
-                    });
+                    const mesh::ScalarMesh m = boxMesh(
+                        4, [&](const glm::dvec3&) { return offset + std::pow(10.0, -decades * share(random)); });
                     preint::TransferFunction f = logarithmicFunction(decades, nodes);
                     for (auto& node : f.color) node.scalar += offset;
                     for (auto& node : f.extinction) node.scalar += offset;
@@ -181,8 +179,7 @@ TEST(StressLimits, ScalarsAndNodesOverManyDecades) {
 TEST(StressLimits, NothingButFiniteNumbersLeaves) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> share(0, 1);
-    const mesh::ScalarMesh m =
-        boxMesh(4, [&](const glm::dvec3&) { return std::pow(10.0, -30 + 60 * share(random)); });
+    const mesh::ScalarMesh m = boxMesh(4, [&](const glm::dvec3&) { return std::pow(10.0, -30 + 60 * share(random)); });
     preint::TransferFunction f = logarithmicFunction(60, 31);
     for (auto& node : f.color) node.scalar *= 1e30;
     for (auto& node : f.extinction) node.scalar *= 1e30;
@@ -191,8 +188,7 @@ TEST(StressLimits, NothingButFiniteNumbersLeaves) {
                       Mode::Absorption, Mode::FirstHit, Mode::Mip, Mode::Minimum, Mode::Average, Mode::Depth}) {
         const Scene scene = sceneOf(m, f, mode);
         const Image expected = engineImage(scene, camera, "reference");
-        // finite is all that is asked of sums that are huge, and of depths at which hardly anything shows
-        const bool finiteOnly = mode == Mode::DataAdditive || mode == Mode::Depth;
+        const bool finiteOnly = mode == Mode::DataAdditive;  // of sums that are huge
         const Threshold relative = finiteOnly ? Threshold{HUGE_VAL, HUGE_VAL} : integrated;
         holdEnginesTo(expected, scene, camera, relative, fmt::format("60 decades, mode {}", static_cast<int>(mode)));
     }
@@ -238,12 +234,13 @@ TEST(StressLimits, RaysWithinFacesNeitherLoseNorGainAPiece) {
     f.color = {{0, {0.1, 0.2, 0.6}}, {0.5, {1, 0.8, 0.4}}, {1.5, {0.9, 0.2, 0.05}}};
     f.extinction = {{0, 0.5}, {1.5, 2}};
     for (unsigned seed = 1; seed <= 3; ++seed)
-        // not held to the reference: jitter of 1e-9 to 1e-4, and eyes 1e-8 beside the outline's edge (README, Known gaps)
-        for (double jitter : {0.0, 0.03})
-            for (const glm::dvec3& beside : {glm::dvec3(0), glm::dvec3(0, 0, -1e-6)})
+        for (double jitter : {0.0, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 0.03})
+            for (const glm::dvec3& beside : {glm::dvec3(0), glm::dvec3(0, 0, -1e-6), glm::dvec3(0, 0, -1e-8)})
                 for (int size : {63, 64}) {
+                    if (seed > 1 && size == 63) continue;
                     const Scene scene = sceneOf(rod(jitter, seed), f);
-                    Camera camera = cameraAt(glm::dvec3(0.5, -1, 0) + beside, glm::dvec3(0.5, 1, 0) + beside, size, size);
+                    Camera camera =
+                        cameraAt(glm::dvec3(0.5, -1, 0) + beside, glm::dvec3(0.5, 1, 0) + beside, size, size);
                     camera.up = {0, 0, 1};
                     camera.fovDegrees = 40;
                     const Image expected = engineImage(scene, camera, "reference");

@@ -206,7 +206,8 @@ void addAnnotationOptions(CLI::App& command, AnnotationOptions& options) {
 }
 
 projection::Margins marginsFor(const AnnotationOptions& options, const AnnotatedScene& scene, int width, int height) {
-    projection::Margins margins;
+    const double across = std::max(0.02, 1.5 / width), down = std::max(0.02, 1.5 / height);  // a pixel at least
+    projection::Margins margins{across, across, down, down};
     projection::Camera camera;
     camera.width = width;
     camera.height = height;
@@ -214,9 +215,9 @@ projection::Margins marginsFor(const AnnotationOptions& options, const Annotated
     Overlay overlay(1, 1, glm::dvec3(0));
     if (options.axes) {  // numbers and the axes' names stand about the box
         constexpr double sizesOfText = 4.6;
-        const double across = std::min(0.3, sizesOfText * sizes.text / width),
-                     down = std::min(0.3, sizesOfText * sizes.text / height);
-        margins = {across, across, down, down};
+        const double wide = std::min(0.3, sizesOfText * sizes.text / width),
+                     high = std::min(0.3, sizesOfText * sizes.text / height);
+        margins = {wide, wide, high, high};
     }
     if (options.colorBar) margins.right += std::min(0.4, (barRoom(scene, camera, sizes, overlay) + sizes.gap) / width);
     if (!options.title.empty())

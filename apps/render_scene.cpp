@@ -232,7 +232,7 @@ projection::Image SceneRenderer::preview(double promisedMilliseconds) {
 }
 
 std::string SceneRenderer::advice() const {
-    return function_.extinctionSuggested ? "" : projection::functionAdvice(scene_);
+    return function_.extinctionSuggested || function_.range ? "" : projection::functionAdvice(scene_);
 }
 
 /// "{time}" and "{step}" in a title are those of the step.

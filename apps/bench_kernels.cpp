@@ -100,37 +100,38 @@ constexpr int binTiles = 16;  // along either side
 constexpr std::size_t binChunk = 16384;
 
 /// As culling leaves them: a cell in one tile or two, keys anyhow.
-std::vector<projection::Survivor> someSurvivors(std::size_t count) {
+std::vector<projection::VisibleCell> someVisibleCells(std::size_t count) {
     std::mt19937 random(3);
     std::uniform_int_distribution<std::uint32_t> tile(0, binTiles - 1);
     std::uniform_real_distribution<double> key(0.0, 1.0);
-    std::vector<projection::Survivor> survivors(count);
+    std::vector<projection::VisibleCell> visibleCells(count);
     for (std::size_t i = 0; i < count; ++i) {
         const auto x = static_cast<std::uint16_t>(tile(random)), y = static_cast<std::uint16_t>(tile(random));
         const auto x1 = static_cast<std::uint16_t>(std::min<int>(x + static_cast<int>(i % 4 == 0), binTiles - 1));
-        survivors[i] = {key(random), static_cast<mesh::CellIndex>(i), x, y, x1, y};
+        visibleCells[i] = {key(random), static_cast<mesh::CellIndex>(i), x, y, x1, y};
     }
-    return survivors;
+    return visibleCells;
 }
 
 /// Tile lists of a frame: counts, places, entries, each list in order.
 void tileBins(benchmark::State& state) {
-    const std::vector<projection::Survivor> survivors = someSurvivors(static_cast<std::size_t>(state.range(0)));
-    std::vector<projection::SurvivorChunk> chunks;
-    for (std::size_t begin = 0; begin < survivors.size(); begin += binChunk)
-        chunks.push_back({begin, std::min(binChunk, survivors.size() - begin)});
+    const std::vector<projection::VisibleCell> visibleCells =
+        someVisibleCells(static_cast<std::size_t>(state.range(0)));
+    std::vector<projection::VisibleCellChunk> chunks;
+    for (std::size_t begin = 0; begin < visibleCells.size(); begin += binChunk)
+        chunks.push_back({begin, std::min(binChunk, visibleCells.size() - begin)});
     projection::TileBins bins;
     for (auto _ : state) {
         bins.reset(chunks.size(), binTiles, binTiles);
         for (std::size_t c = 0; c < chunks.size(); ++c)
             for (std::size_t i = chunks[c].begin; i < chunks[c].begin + chunks[c].count; ++i)
-                for (int x = survivors[i].x0; x <= survivors[i].x1; ++x)
-                    ++bins.counts(c)[survivors[i].y0 * binTiles + x];
-        bins.fill(survivors.data(), chunks, 1.0, 0.0, nullptr, nullptr);
+                for (int x = visibleCells[i].x0; x <= visibleCells[i].x1; ++x)
+                    ++bins.counts(c)[visibleCells[i].y0 * binTiles + x];
+        bins.fill(visibleCells.data(), chunks, 1.0, 0.0, nullptr, nullptr);
         bins.sort(nullptr);
         benchmark::DoNotOptimize(bins.entryCount());
     }
-    countCells(state, survivors.size());
+    countCells(state, visibleCells.size());
 }
 BENCHMARK(tileBins)->Arg(150'000)->Arg(5'000'000)->Unit(benchmark::kMillisecond)->UseRealTime();
 

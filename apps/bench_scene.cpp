@@ -55,14 +55,14 @@ TransferFunction smoothFunction(const mesh::ScalarMesh&) {
     return {.color = fiveColors, .extinction = fiveExtinctions, .isosurfaces = {}};
 }
 
-TransferFunction peaksFunction(const mesh::ScalarMesh&) {
+TransferFunction isosurfacesFunction(const mesh::ScalarMesh&) {
     return {.color = {{0.0, {0.0, 0.0, 0.0}}},
             .extinction = {},
             .isosurfaces = {{0.3, 0.4, {0.20, 0.55, 0.90}}, {0.6, 0.8, {0.95, 0.65, 0.15}}}};
 }
 
 TransferFunction veiledFunction(const mesh::ScalarMesh& mesh) {
-    TransferFunction function = peaksFunction(mesh);
+    TransferFunction function = isosurfacesFunction(mesh);
     function.color = fiveColors;
     function.extinction = {{0.0, 0.1}, {1.0, 0.1}};
     return function;
@@ -85,7 +85,7 @@ struct NamedFunction {
     const char* name;
     TransferFunction (*make)(const mesh::ScalarMesh&);  // scalars as fractions of the range
 };
-constexpr std::array functions{NamedFunction{"smooth", smoothFunction}, NamedFunction{"peaks", peaksFunction},
+constexpr std::array functions{NamedFunction{"smooth", smoothFunction}, NamedFunction{"peaks", isosurfacesFunction},
                                NamedFunction{"opaque", opaqueFunction}, NamedFunction{"constant", constantFunction},
                                NamedFunction{"sparse", sparseFunction}, NamedFunction{"veiled", veiledFunction}};
 

@@ -94,9 +94,10 @@ json glJson(const RenderRecord& record) {
 }
 
 /// How many frames sorted anew, kept the last frame's order or repaired it.
-json upkeepJson(const RenderRecord& record) {
+json incrementalSortJson(const RenderRecord& record) {
     json counts = json::object();
-    for (const FrameReport& frame : record.frames) counts[frame.orderUpkeep] = counts.value(frame.orderUpkeep, 0) + 1;
+    for (const FrameReport& frame : record.frames)
+        counts[frame.incrementalSort] = counts.value(frame.incrementalSort, 0) + 1;
     return counts;
 }
 
@@ -120,7 +121,8 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
     json because = json::object();
     for (const FrameReport& frame : record.frames) {
         repaired += frame.pixelsRepaired;
-        for (const auto& [doubt, count] : frame.repairedBecause) because[doubt] = because.value(doubt, std::uint64_t{0}) + count;
+        for (const auto& [doubt, count] : frame.repairedBecause)
+            because[doubt] = because.value(doubt, std::uint64_t{0}) + count;
         wrong += frame.pixelsWrong;
     }
     const int perAxis = projection::samplesPerAxis(options.settings.samples);
@@ -149,7 +151,7 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
           {"sorted", first.cellsSorted},
           {"cyclic", first.orderCycles},
           {"failing_faces", first.failingFaces},
-          {"frames", upkeepJson(record)}}},
+          {"frames", incrementalSortJson(record)}}},
         {"fragments", first.fragments},
         {"tiles",
          {{"retired", first.tilesRetired}, {"entries", first.tileEntries}, {"entries_saved", first.tileEntriesSaved}}},

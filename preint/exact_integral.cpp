@@ -17,9 +17,9 @@ void composite(SegmentResult& sum, const SegmentResult& behind) {
     sum.opticalDepth += behind.opticalDepth;
 }
 
-void compositePeak(SegmentResult& sum, const Isosurface& peak) {
-    sum.color += std::exp(-sum.opticalDepth) * peak.opacity * peak.color;
-    sum.opticalDepth += -std::log1p(-peak.opacity);  // opacity 1: infinite
+void compositeIsosurface(SegmentResult& sum, const Isosurface& surface) {
+    sum.color += std::exp(-sum.opticalDepth) * surface.opacity * surface.color;
+    sum.opticalDepth += -std::log1p(-surface.opacity);  // opacity 1: infinite
 }
 
 /// Value of piecewise linear `nodes` at `scalar`, which is an end of the interval (low, high) that holds no node
@@ -171,13 +171,13 @@ SegmentResult ExactIntegral::smoothSegment(double front, double back, double len
 }
 
 SegmentResult ExactIntegral::segment(double front, double back, double length, Integral integral) const {
-    const std::vector<Isosurface>& peaks = function_.isosurfaces;
-    if (peaks.empty() || front == back) return smoothSegment(front, back, length, integral);
+    const std::vector<Isosurface>& surfaces = function_.isosurfaces;
+    if (surfaces.empty() || front == back) return smoothSegment(front, back, length, integral);
     // Crossed are those with low < value ≤ high, whatever the direction.
     const bool rising = front < back;
     auto firstAbove = [&](double scalar) {
-        return std::upper_bound(peaks.begin(), peaks.end(), scalar,
-                                [](double s, const Isosurface& peak) { return s < peak.value; });
+        return std::upper_bound(surfaces.begin(), surfaces.end(), scalar,
+                                [](double s, const Isosurface& surface) { return s < surface.value; });
     };
     const auto begin = firstAbove(rising ? front : back), end = firstAbove(rising ? back : front);
     if (begin == end) return smoothSegment(front, back, length, integral);
@@ -190,9 +190,9 @@ SegmentResult ExactIntegral::segment(double front, double back, double length, I
         from = to;
     };
     for (auto left = end - begin, index = decltype(left){0}; index < left; ++index) {
-        const Isosurface& peak = rising ? begin[index] : end[-1 - index];
-        if (peak.value != from) advance(peak.value);
-        compositePeak(sum, peak);
+        const Isosurface& surface = rising ? begin[index] : end[-1 - index];
+        if (surface.value != from) advance(surface.value);
+        compositeIsosurface(sum, surface);
     }
     if (from != back) advance(back);
     return sum;

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What light meets along one segment, by table look-up: a segment is cut at the interfaces that it crosses (isosurfaces and jumps), so
-// that these stay exact, and gathered front to back. Needs preint/table_lookup.glsl and, when there are interfaces,
+// What light meets along one segment, by table look-up: a segment is cut at the discontinuities that it crosses
+// (isosurfaces and jumps), so that these stay exact, and gathered front to back. Needs preint/table_lookup.glsl and,
+// when there are discontinuities,
 //
-//   TETRALUX_INTERFACE_COUNT                 how many (TETRALUX_INTERFACES itself unless defined)
-//   real interfaceValue[]                    ascending
-//   vec4 interfaceLayer[]                    colour, optical depth −ln(1 − α₀); depth 0: only a jump
-//   int zoneAfter[]                          zone of the table above the first i interfaces, one more than there are interfaces
+//   TETRALUX_DISCONTINUITY_COUNT            how many (TETRALUX_DISCONTINUITIES itself unless defined)
+//   real discontinuityValue[]               ascending
+//   vec4 discontinuityLayer[]               colour, optical depth −ln(1 − α₀); depth 0: only a jump
+//   int zoneAfter[]                         zone of the table above the first i of them: one entry more
 
-#ifndef TETRALUX_INTERFACE_SCALE
-#define TETRALUX_INTERFACE_SCALE real(1.0)  // factor of the isosurfaces' depths
+#ifndef TETRALUX_ISOSURFACE_SCALE
+#define TETRALUX_ISOSURFACE_SCALE real(1.0)  // factor of the isosurfaces' depths
 #endif
-#ifndef TETRALUX_INTERFACE_COUNT
-#define TETRALUX_INTERFACE_COUNT TETRALUX_INTERFACES
+#ifndef TETRALUX_DISCONTINUITY_COUNT
+#define TETRALUX_DISCONTINUITY_COUNT TETRALUX_DISCONTINUITIES
 #endif
 
-// 1 − exp(−depth) with the relative precision of the type also for thin segments, whose sum it is that counts. The series errs by
+// 1 − exp(−depth), with the type's relative precision for thin segments too: many of them add up. The series errs by
 // depth⁵/720 < 5e-10 of its value below 0.05.
 TETRALUX_GLSL_FUNCTION real opacityOf(real depth) {
     real series = depth * (real(1.0) - depth * (real(0.5) - depth * (real(1.0 / 6.0) - depth * (real(1.0 / 24.0) - depth * real(1.0 / 120.0)))));
@@ -48,16 +49,16 @@ TETRALUX_GLSL_FUNCTION Gathered gatherWithin(int zone, real front, real back, re
     return part;
 }
 
-#if TETRALUX_INTERFACES
-// The interfaces crossed are those with low < v ≤ high: (front < v) ≠ (back < v).
+#if TETRALUX_DISCONTINUITIES
+// The discontinuities crossed are those with low < v ≤ high: (front < v) ≠ (back < v).
 TETRALUX_GLSL_FUNCTION Gathered gatherSegment(real front, real back, real segmentLength) {
     real low = min(front, back);
     real high = max(front, back);
     int first = 0;
     int end = 0;
-    for (int i = 0; i < TETRALUX_INTERFACE_COUNT; ++i) {
-        first += int(interfaceValue[i] <= low);
-        end += int(interfaceValue[i] <= high);
+    for (int i = 0; i < TETRALUX_DISCONTINUITY_COUNT; ++i) {
+        first += int(discontinuityValue[i] <= low);
+        end += int(discontinuityValue[i] <= high);
     }
     if (first == end) return gatherWithin(zoneAfter[first], front, back, segmentLength);
 
@@ -71,9 +72,9 @@ TETRALUX_GLSL_FUNCTION Gathered gatherSegment(real front, real back, real segmen
     real otherDepth = real(0.0);
     real at = front;
     for (int n = 0; n <= crossed; ++n) {
-        int next = select(rising, first + n, end - 1 - n);  // the interface that ends this part, unless it is the last
+        int next = select(rising, first + n, end - 1 - n);  // the discontinuity that ends this part, unless it is the last
         real to = back;
-        if (n < crossed) to = interfaceValue[next];
+        if (n < crossed) to = discontinuityValue[next];
         Gathered part = gatherWithin(zoneAfter[select(rising, next, next + 1)], at, to, abs(to - at) * lengthPerScalar);
         real opacity = opacityOf(part.smoothDepth);
         color += transparency * opacity * part.meanColor;
@@ -81,9 +82,9 @@ TETRALUX_GLSL_FUNCTION Gathered gatherSegment(real front, real back, real segmen
         transparency *= real(1.0) - opacity;
         smoothDepth += part.smoothDepth;
         if (n < crossed) {
-            vec4 layer = interfaceLayer[next];
+            vec4 layer = discontinuityLayer[next];
             vec3 layerColor = vec3(layer.x, layer.y, layer.z);
-            real layerDepth = layer.w * TETRALUX_INTERFACE_SCALE;
+            real layerDepth = layer.w * TETRALUX_ISOSURFACE_SCALE;
             opacity = opacityOf(layerDepth);
             color += transparency * opacity * layerColor;
             thinColor += layerDepth * layerColor;

@@ -7,7 +7,7 @@
 /// opticalDepth = meanExtinction·(length or |s_b − s_f|), C = meanColor·(1 − exp(−opticalDepth)). Mean extinction does
 /// not depend on the length at all, mean colour varies slowly with it.
 ///
-/// Isosurfaces and jumps are not in the table: they are `Interface`s at which a segment is split before look-up, so
+/// Isosurfaces and jumps are not in the table: they are `Discontinuity`s at which a segment is split before look-up, so
 /// they are exact. Between two jumps lies a zone with a square block of texels of its own.
 ///
 /// Nodes of the transfer function are kinks, across which interpolation errs most. So the mapping from scalar to texel
@@ -28,7 +28,7 @@
 namespace tetralux::preint {
 
 /// A scalar at which segments are split: an isosurface (opacity > 0), a jump (opacity 0, the zone changes), or both.
-struct Interface {
+struct Discontinuity {
     double value = 0.0;
     double opacity = 0.0;
     glm::dvec3 color{0};
@@ -51,12 +51,12 @@ struct TableOptions {
 /// texels[((k·zoneCount + z)·size + j)·size + i].
 struct PreintegrationTable {
     Integral integral = Integral::ScaleInvariant;
-    int size = 0;                       ///< texels per scalar axis within a zone
-    int slices = 1;                     ///< length axis: 1 for 2D
-    double lengthMax = 0;               ///< mesh units; longer segments use the last slice
-    double lengthScale = 1;             ///< curvature of the length mapping (table_lookup.glsl)
-    std::vector<glm::dvec2> zones;      ///< scalar range [low, high] of each zone, ascending, within the field's range
-    std::vector<Interface> interfaces;  ///< ascending by value
+    int size = 0;                   ///< texels per scalar axis within a zone
+    int slices = 1;                 ///< length axis: 1 for 2D
+    double lengthMax = 0;           ///< mesh units; longer segments use the last slice
+    double lengthScale = 1;         ///< curvature of the length mapping (table_lookup.glsl)
+    std::vector<glm::dvec2> zones;  ///< scalar range [low, high] of each zone, ascending, within the field's range
+    std::vector<Discontinuity> discontinuities;  ///< ascending by value
     /// The mapping from scalar to table coordinate (zone + fraction of the zone's texels): Σ warp[k].y·max(s −
     /// warp[k].x, 0). Where `warped` is false it is linear within each zone, and `zones` alone tell it.
     std::vector<glm::dvec2> warp;

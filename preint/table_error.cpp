@@ -165,7 +165,7 @@ std::vector<SampleRay> sampleRays(const ExactIntegral& exact, const Preintegrati
     Sampler sampler{exact, layout, low, high, {}, {}, {}};
     for (const ColorNode& node : exact.function().color) sampler.nodes.push_back(node.scalar);
     for (const ExtinctionNode& node : exact.function().extinction) sampler.nodes.push_back(node.scalar);
-    for (const Interface& one : layout.interfaces) sampler.nodes.push_back(one.value);
+    for (const Discontinuity& one : layout.discontinuities) sampler.nodes.push_back(one.value);
     std::erase_if(sampler.nodes, [&](double scalar) { return scalar < low || scalar > high; });
     if (sampler.nodes.empty()) sampler.nodes.push_back(0.5 * (low + high));
     sampler.addSegments();

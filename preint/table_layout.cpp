@@ -178,27 +178,28 @@ ZoneKinks layOutTable(const ExactIntegral& exact, double scalarMin, double scala
         std::sort(cutsAt.begin(), cutsAt.end());
         kinks.clear();
     }
-    std::vector<Interface> interfaces;
+    std::vector<Discontinuity> discontinuities;
     for (const Isosurface& surface : exact.function().isosurfaces) {
         if (surface.value > scalarMin && surface.value <= scalarMax && surface.opacity > 0.0) {
-            interfaces.push_back({surface.value, surface.opacity, surface.color, 0, 0});
+            discontinuities.push_back({surface.value, surface.opacity, surface.color, 0, 0});
         }
     }
     for (const double cut : cutsAt) {
-        const bool shared =
-            std::any_of(interfaces.begin(), interfaces.end(), [&](const Interface& one) { return one.value == cut; });
-        if (!shared) interfaces.push_back({cut, 0.0, glm::dvec3{0.0}, 0, 0});
+        const bool shared = std::any_of(discontinuities.begin(), discontinuities.end(),
+                                        [&](const Discontinuity& one) { return one.value == cut; });
+        if (!shared) discontinuities.push_back({cut, 0.0, glm::dvec3{0.0}, 0, 0});
     }
-    std::stable_sort(interfaces.begin(), interfaces.end(),
-                     [](const Interface& a, const Interface& b) { return a.value < b.value; });
+    std::stable_sort(discontinuities.begin(), discontinuities.end(),
+                     [](const Discontinuity& a, const Discontinuity& b) { return a.value < b.value; });
 
     auto zoneOf = [&](auto count) { return static_cast<int>(count - cutsAt.begin()); };
-    for (std::size_t i = 0; i < interfaces.size(); ++i) {
-        Interface& one = interfaces[i];
+    for (std::size_t i = 0; i < discontinuities.size(); ++i) {
+        Discontinuity& one = discontinuities[i];
         one.zoneAbove = zoneOf(std::upper_bound(cutsAt.begin(), cutsAt.end(), one.value));
-        one.zoneBelow = i > 0 ? interfaces[i - 1].zoneAbove : 0;  // of several at one value the first changes the zone
+        one.zoneBelow =
+            i > 0 ? discontinuities[i - 1].zoneAbove : 0;  // of several at one value the first changes the zone
     }
-    table.interfaces = std::move(interfaces);
+    table.discontinuities = std::move(discontinuities);
 
     table.zones.clear();
     double low = scalarMin;

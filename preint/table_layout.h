@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Which zones and interfaces a table has: jumps of the transfer function within the field's range part zones.
+/// Which zones and discontinuities a table has: jumps of the transfer function within the field's range part zones.
 #pragma once
 
 #include <vector>
@@ -16,9 +16,9 @@ using ZoneKinks = std::vector<std::vector<double>>;
 /// costs a look-up. Ignored: there are no ramps, and texels are to be placed without regard to kinks.
 enum class KinkCuts { None, All, Ignored };
 
-/// Fills `zones`, `interfaces` and `ramps` of `table` and returns the strongest kinks. Every jump in (scalarMin,
-/// scalarMax), and every kink if asked for, ends a zone; isosurfaces in (scalarMin, scalarMax] become interfaces, the
-/// others can never be crossed. \throws std::runtime_error when the range is not finite or reversed.
+/// Fills `zones`, `discontinuities` and `ramps` of `table` and returns the strongest kinks. Every jump in (scalarMin,
+/// scalarMax), and every kink if asked for, ends a zone; isosurfaces in (scalarMin, scalarMax] become discontinuities,
+/// the others can never be crossed. \throws std::runtime_error when the range is not finite or reversed.
 ZoneKinks layOutTable(const ExactIntegral& exact, double scalarMin, double scalarMax, KinkCuts cuts,
                       PreintegrationTable& table);
 

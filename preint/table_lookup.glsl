@@ -3,20 +3,23 @@
 // Where a segment lies in a pre-integration table (preint/preintegration_table.h). One text for GLSL and C++; see
 // preint/glsl_prelude.h for the common subset. The including text provides
 //
-//   vec4 tableTexel(real u, real v, real w)  the table, linearly filtered. Coordinates count texels, the centre of texel i is i + 1/2.
-//                                            u: front scalar, v: back scalar and zone, w: length slice (1/2 in a 2D table)
-//   real tableSize                           texels per scalar axis of a zone
-//   TETRALUX_INTERFACES                      0: no interfaces, one zone
-//   TETRALUX_WARPS                           entries of the table's warp; 0 (or not defined) when it is not `warped`
-//   vec2 tableWarp[TETRALUX_WARPS]           when warped: the table's `warp`
-//   vec2 tableZone[]                         when not: (low, 1/(high − low)) of each zone, 0 for the reciprocal of an empty range
-//   TETRALUX_SCALE_INVARIANT                 1: 2D table; 0: 3D table, which needs besides
+//   vec4 tableTexel(real u, real v, real w) the table, linearly filtered. Coordinates count texels, the centre of texel
+//                                            i is i + 1/2. u: front scalar, v: back scalar and zone,
+//                                            w: length slice (1/2 in a 2D table)
+//   real tableSize                          texels per scalar axis of a zone
+//   TETRALUX_DISCONTINUITIES                0: no discontinuities, one zone
+//   TETRALUX_WARPS                          entries of the table's warp; 0 (or not defined) when it is not `warped`
+//   vec2 tableWarp[TETRALUX_WARPS]          when warped: the table's `warp`
+//   vec2 tableZone[]                        when not: (low, 1/(high − low)) of each zone, (low, 0) of an empty one
+//   TETRALUX_SCALE_INVARIANT                1: 2D table; 0: 3D table, which needs besides
 //   real tableSlices, tableLengthMax, tableLengthScale
 //
-//   TETRALUX_RAMPS                           entries of the table's `ramps`; 0 (or not defined): mean extinction comes from the texels
-//   vec3 tableRamp[TETRALUX_RAMPS]           the table's `ramps`
+//   TETRALUX_RAMPS                          entries of the table's `ramps`; 0 (or not defined): extinction is the texels'
+//   vec3 tableRamp[TETRALUX_RAMPS]          the table's `ramps`
 //
-// TETRALUX_WARP_COUNT and TETRALUX_RAMP_COUNT may stand for the numbers of entries where the others are only 0 or 1. Each mapping stands beside its inverse. The ends of a range lie at texel centres, so that no texel beyond the zone has weight.
+// Where the numbers of entries are not known when compiling, TETRALUX_WARPS and TETRALUX_RAMPS are 1 and
+// TETRALUX_WARP_COUNT and TETRALUX_RAMP_COUNT hold them. Each mapping stands beside its inverse. The ends of a range
+// lie at texel centres, so that no texel beyond the zone has weight.
 
 #ifndef TETRALUX_WARPS
 #define TETRALUX_WARPS 0
@@ -64,8 +67,8 @@ TETRALUX_GLSL_FUNCTION real scalarOfFraction(int zone, real fraction) { return t
 TETRALUX_GLSL_FUNCTION real texelOfFraction(real fraction, real size) { return real(0.5) + fraction * (size - real(1.0)); }
 TETRALUX_GLSL_FUNCTION real fractionOfTexel(real texel, real size) { return (texel - real(0.5)) / (size - real(1.0)); }
 
-// Length ↔ fraction of the length axis: logarithmic, linear for lengths far below `scale` (where depth is small and mean colour is
-// linear in it).
+// Length ↔ fraction of the length axis: logarithmic, linear for lengths far below `scale` (where depth is small and
+// mean colour is linear in it).
 TETRALUX_GLSL_FUNCTION real fractionOfLength(real segmentLength, real lengthMax, real scale) {
     return log(real(1.0) + segmentLength / scale) / log(real(1.0) + lengthMax / scale);
 }
@@ -74,8 +77,9 @@ TETRALUX_GLSL_FUNCTION real lengthOfFraction(real fraction, real lengthMax, real
 }
 
 #if TETRALUX_RAMPS
-// Mean of extinction between two scalars, (Θ(back) − Θ(front))/(back − front), without a difference of integrals: a ramp that begins at
-// s_k covers `share` of the way (exactly 1 or 0 for most) and rises there evenly from its jump to the sum of both ends' heights.
+// Mean of extinction between two scalars, (Θ(back) − Θ(front))/(back − front), without a difference of integrals: a
+// ramp that begins at s_k covers `share` of the way (exactly 1 or 0 for most) and rises there evenly from its jump to
+// the sum of both ends' heights.
 TETRALUX_GLSL_FUNCTION real meanExtinctionOf(real front, real back) {
     real low = min(front, back);
     real high = max(front, back);
@@ -91,12 +95,14 @@ TETRALUX_GLSL_FUNCTION real meanExtinctionOf(real front, real back) {
 }
 #endif
 
-// (mean colour C/α, mean extinction) of a segment within one zone; scalars beyond the zone and lengths beyond the last slice are clamped.
+// (mean colour C/α, mean extinction) of a segment within one zone; scalars beyond the zone and lengths beyond the
+// last slice are clamped.
 TETRALUX_GLSL_FUNCTION vec4 tableEntry(int zone, real front, real back, real segmentLength) {
     real column = texelOfFraction(fractionOfScalar(zone, front), tableSize);
     real row = texelOfFraction(fractionOfScalar(zone, back), tableSize);
-#if TETRALUX_INTERFACES
-    // Zones are stacked, and at its ends float coordinates would give the next zone some 1e-3 of weight: stay inside by that much.
+#if TETRALUX_DISCONTINUITIES
+    // Zones are stacked, and at its ends float coordinates would give the next zone some 1e-3 of weight: stay inside
+    // by that much.
     row = clamp(row, real(0.501), tableSize - real(0.501)) + real(zone) * tableSize;
 #endif
 #if TETRALUX_SCALE_INVARIANT

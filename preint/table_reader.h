@@ -23,9 +23,9 @@ struct TableUniforms {
           tableWarp(table.warp),
           tableRamp(table.ramps) {
         zoneAfter.push_back(0);
-        for (const Interface& one : table.interfaces) {
-            interfaceValue.push_back(one.value);
-            interfaceLayer.emplace_back(one.color, -std::log1p(-one.opacity));
+        for (const Discontinuity& one : table.discontinuities) {
+            discontinuityValue.push_back(one.value);
+            discontinuityLayer.emplace_back(one.color, -std::log1p(-one.opacity));
             zoneAfter.push_back(one.zoneAbove);
         }
     }
@@ -33,15 +33,15 @@ struct TableUniforms {
     int tableZones;
     std::vector<glm::dvec2> tableWarp;
     std::vector<glm::dvec3> tableRamp;
-    std::vector<double> interfaceValue;
-    std::vector<glm::dvec4> interfaceLayer;
+    std::vector<double> discontinuityValue;
+    std::vector<glm::dvec4> discontinuityLayer;
     std::vector<int> zoneAfter;
 };
 
 // The texts' functions become members: they see the uniforms as GLSL functions see theirs. `Fetch` is called with whole
 // texel coordinates (front, back including zone, slice) and returns a vec4.
-#define TETRALUX_INTERFACES 1
-#define TETRALUX_INTERFACE_COUNT static_cast<int>(interfaceValue.size())
+#define TETRALUX_DISCONTINUITIES 1
+#define TETRALUX_DISCONTINUITY_COUNT static_cast<int>(discontinuityValue.size())
 #define TETRALUX_WARPS 1  // also where the mapping is linear: `warp` holds either
 #define TETRALUX_WARP_COUNT static_cast<int>(tableWarp.size())
 #define TETRALUX_RAMPS 1
@@ -117,8 +117,8 @@ struct Standard : TableUniforms {
 #undef TETRALUX_RAMPS
 #undef TETRALUX_WARP_COUNT
 #undef TETRALUX_WARPS
-#undef TETRALUX_INTERFACE_COUNT
-#undef TETRALUX_INTERFACES
+#undef TETRALUX_DISCONTINUITY_COUNT
+#undef TETRALUX_DISCONTINUITIES
 
 /// Looks segments up in `table`'s layout with texels from `fetch(front, back, slice)`.
 template <class Fetch>

@@ -21,10 +21,10 @@ struct Mapping {
     static vec4 tableTexel(double, double, double) { return vec4(0.0); }
     const vec2* tableZone = nullptr;
     double tableSize = 0, tableSlices = 0, tableLengthMax = 0, tableLengthScale = 1;
-#define TETRALUX_INTERFACES 0
+#define TETRALUX_DISCONTINUITIES 0
 #define TETRALUX_SCALE_INVARIANT 0
 #include <preint/table_lookup.glsl>
-#undef TETRALUX_INTERFACES
+#undef TETRALUX_DISCONTINUITIES
 #undef TETRALUX_SCALE_INVARIANT
 };
 

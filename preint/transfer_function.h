@@ -26,7 +26,8 @@ struct OpacityNode {
     double opacity;  ///< α in [0, 1]
 };
 
-/// A Dirac peak: crossing `value` multiplies the transparency by 1 − opacity and adds opacity·color.
+/// An isosurface, a Dirac peak of extinction: crossing `value` multiplies the transparency by 1 − opacity and adds
+/// opacity·color.
 struct Isosurface {
     double value;
     double opacity;  ///< α₀ in [0, 1]
@@ -58,7 +59,7 @@ struct TransferFunction {
     std::vector<OpacityNode> opacity{};
     /// Mesh units (or of the scalar); nothing: 1/50 of the diagonal (or the range).
     std::optional<double> unitDistance{};
-    double opacityScale = 1.0;  ///< extinction, and the opacity of isosurfaces up to 1, times this
+    double opacityScale = 1.0;             ///< extinction, and the opacity of isosurfaces up to 1, times this
     std::vector<glm::dvec3> categories{};  ///< in place of `color`: one for each value (categorical_colors.h)
 
     glm::dvec3 colorAt(double scalar) const;  ///< at a jump: the value from above

@@ -52,8 +52,8 @@ Tensor inTangentPlane(const PointMoments& moments, const glm::dvec3& normal) {
     return tensorOf(across * matrix * across / moments.weight);
 }
 
-/// (λ₂ − λ₁)/(λ₂ + λ₁) of level sets without a direction, as large as filling points may make it by chance: they fill cells
-/// evenly, so that errors fall with their number, where those of random points would with its root.
+/// (λ₂ − λ₁)/(λ₂ + λ₁) of level sets without a direction, as large as filling points may make it by chance: they fill
+/// cells evenly, so that errors fall with their number, where those of random points would with its root.
 double chance(const PointMoments& moments) {
     constexpr double perPoint = 6.0;
     return moments.squares > 0 ? std::min(perPoint * moments.squares / (moments.weight * moments.weight), 1.0) : 0.0;
@@ -64,7 +64,8 @@ double chance(const PointMoments& moments) {
 Tensor withoutChance(const Tensor& tensor, const glm::dvec3& normal, double chance) {
     const double half = 0.5 * (tensor[0] + tensor[1] + tensor[2]);
     Tensor round{};
-    for (std::size_t i = 0; i < 3; ++i) round[i] = half * (1 - normal[static_cast<int>(i)] * normal[static_cast<int>(i)]);
+    for (std::size_t i = 0; i < 3; ++i)
+        round[i] = half * (1 - normal[static_cast<int>(i)] * normal[static_cast<int>(i)]);
     round[3] = -half * normal.x * normal.y;
     round[4] = -half * normal.x * normal.z;
     round[5] = -half * normal.y * normal.z;

@@ -29,15 +29,15 @@ using Tensor = std::array<double, 6>;
 /// their projections, and has the weight fall with the distance in the tangent plane. On a cylinder of more than the
 /// ball's radius that finds the direction across the axis: what bends away is seen shortened, so that more of it counts
 /// where the ball cuts it off than where the plane's weight has fallen to 0 along the axis. Distances in space and
-/// moments about v find the axis at any radius (tests/outside/anisotropy_estimates.py compares both; projection/modes.md
-/// has the numbers). And here every cell near v is filled
-/// with `settings.samples` points that are the same in every run, and the weight falls to 0 towards ε, since a sharp
-/// end takes more than four times as many points for the same accuracy. Four points are those of the quadrature that is
-/// exact for quadratics (ratios within 0.002 of those of 64 points on the level sets of the tests). Found in float:
-/// within 2e-6 of the same sum in double. The larger eigenvalue in the tangent plane is
-/// called λ₂: its direction is that along which the level set extends farther, and λ₂/λ₁ ≥ 1 is 1 where it extends
-/// alike. Zero for cell data and where there is no gradient. What the points' number alone may make of a level set
-/// without a direction, (λ₂ − λ₁)/(λ₂ + λ₁) ≤ 6·Σw²/(Σw)², is taken out, since γ would blow it up: planes have a ratio of 1.
+/// moments about v find the axis at any radius (tests/outside/anisotropy_estimates.py compares both;
+/// projection/modes.md has the numbers). And here every cell near v is filled with `settings.samples` points that are
+/// the same in every run, and the weight falls to 0 towards ε, since a sharp end takes more than four times as many
+/// points for the same accuracy. Four points are those of the quadrature that is exact for quadratics (ratios within
+/// 0.002 of those of 64 points on the level sets of the tests). Found in float: within 2e-6 of the same sum in double.
+/// The larger eigenvalue in the tangent plane is called λ₂: its direction is that along which the level set extends
+/// farther, and λ₂/λ₁ ≥ 1 is 1 where it extends alike. Zero for cell data and where there is no gradient. What the
+/// points' number alone may make of a level set without a direction, (λ₂ − λ₁)/(λ₂ + λ₁) ≤ 6·Σw²/(Σw)², is taken out,
+/// since γ would blow it up: planes have a ratio of 1.
 ///
 /// Where the mesh's border cuts the level set off, the sums are completed to what they would be if the mesh went on
 /// (shading/cut_disc.h): as they stand, a plane near a face of the mesh would have a ratio of 1.45, near an edge of 4,

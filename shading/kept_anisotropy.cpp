@@ -42,20 +42,20 @@ mesh::Field tensorField(const std::vector<Tensor>& tensors, const AnisotropySett
 std::optional<std::vector<Tensor>> keptTensors(const std::vector<mesh::Field>& fields,
                                                const AnisotropySettings& settings, const std::string& scalar) {
     const auto find = [&](const auto& suits) {
-        return std::find_if(fields.begin(), fields.end(), [&](const mesh::Field& field) {
-            return holdsTensorsOf(field, scalar) && suits(field);
-        });
+        return std::find_if(fields.begin(), fields.end(),
+                            [&](const mesh::Field& field) { return holdsTensorsOf(field, scalar) && suits(field); });
     };
     const std::string exact = fieldName(settings, scalar);
     auto found = find([&](const mesh::Field& field) { return field.name == exact; });
     if (found == fields.end() && areUsual(settings)) found = find([](const mesh::Field&) { return true; });
     if (found == fields.end()) return std::nullopt;
     if (!std::all_of(found->values.begin(), found->values.end(), [](double value) { return std::isfinite(value); }))
-        throw std::runtime_error(
-            fmt::format("field '{}' has numbers that are not finite; keep it anew with --keep-anisotropy", found->name));
+        throw std::runtime_error(fmt::format(
+            "field '{}' has numbers that are not finite; keep it anew with --keep-anisotropy", found->name));
     std::vector<Tensor> tensors(found->values.size() / components);
     for (std::size_t i = 0; i < tensors.size(); ++i)
-        std::copy_n(found->values.begin() + static_cast<std::ptrdiff_t>(i * components), components, tensors[i].begin());
+        std::copy_n(found->values.begin() + static_cast<std::ptrdiff_t>(i * components), components,
+                    tensors[i].begin());
     return tensors;
 }
 

@@ -13,7 +13,8 @@
 namespace tetralux::shading {
 
 /// Tensors as a point field of six components (xx, yy, zz, xy, xz, yz), named after what they were computed with:
-/// "anisotropy(radius=4,interval=0.05,samples=4,smoothing=0) of density". `scalar` is the scalar's name, with component.
+/// "anisotropy(radius=4,interval=0.05,samples=4,smoothing=0) of density". `scalar` is the scalar's name, with
+/// component.
 mesh::Field tensorField(const std::vector<Tensor>& tensors, const AnisotropySettings& settings,
                         const std::string& scalar);
 

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Light of one cell segment in full: coloured lights, two-sided materials, and the lobes that one may choose from. One text for GLSL and
-// C++; see preint/glsl_prelude.h for the common subset. With lights of intensity 1, C_spec = 1 and Phong it is lightTerm of
-// shading/cell_shading.glsl, which is faster.
+// Light of one cell segment in full: coloured lights, two-sided materials, and the lobes that one may choose from.
+// One text for GLSL and C++; see preint/glsl_prelude.h for the common subset. With lights of intensity 1, C_spec = 1
+// and Phong it is lightTerm of shading/cell_shading.glsl, which is faster.
 //
 //   Kraus, "Scale-Invariant Volume Rendering", IEEE Visualization 2005, Equation 19: what is reflected and what is transmitted
 //   Ament & Dachsbacher, "Anisotropic Ambient Volume Shading", IEEE Visualization 2015: anisotropic lobes from the tensor of a level set
 //   Ward, "Measuring and Modeling Anisotropic Reflection", SIGGRAPH 1992; Lafortune et al., "Non-Linear Approximation of Reflectance
 //   Functions", SIGGRAPH 1997; Henyey & Greenstein, "Diffuse Radiation in the Galaxy", 1941
 //
-// Lobes are 1 at their largest, but for Ward's, which has the norm of his Equation 5a; phase functions are 1 on average over all directions.
+// Lobes are 1 at their largest, but for Ward's, which has the norm of his Equation 5a; phase functions are 1 on
+// average over all directions.
 
-// What holds for the whole picture. `kind` of highlight: 0 Phong, 1 Blinn–Phong, 2 Ward, 3 Lafortune, 4 none. `phase`: 1 where the diffuse
-// part is Henyey–Greenstein's phase function.
+// What holds for the whole picture. `kind` of highlight: 0 Phong, 1 Blinn–Phong, 2 Ward, 3 Lafortune, 4 none.
+// `phase`: 1 where the diffuse part is Henyey–Greenstein's phase function.
 struct LightModel {
     int kind, phase;
     vec3 frontSpecular, backSpecular;  // C_spec where n points to the eye, and away
@@ -44,18 +45,20 @@ TETRALUX_GLSL_FUNCTION vec3 bitangentOf(vec3 n) {
     return vec3(n.x * n.y * a, turn + n.y * n.y * a, -n.y);
 }
 
-// λ₂/λ₁ ≥ 1, larger over smaller, is bounded by one over this: a level set without width has no direction to be trusted either.
+// λ₂/λ₁ ≥ 1, larger over smaller, is bounded by one over this: a level set without width has no direction to be
+// trusted either.
 TETRALUX_GLSL_FUNCTION real leastEigenvalueShare() { return real(1e-3); }
 
-// Ward's u is at most this, or κ where κ is more: at 10 the highlight is half as bright as in its middle where the half-way vector leans 69° along
-// the fibre. A larger u would draw it out no farther, only make it dimmer.
+// Ward's u is at most this, or κ where κ is more: at 10 the highlight is half as bright as in its middle where the
+// half-way vector leans 69° along the fibre. A larger u would draw it out no farther, only make it dimmer.
 TETRALUX_GLSL_FUNCTION real largestRoughness() { return real(10.0); }
 
 // (n·l)(n·v) in Ward's norm is at least this, so that 1/√((n·l)(n·v)) ≤ 100 towards silhouettes.
 TETRALUX_GLSL_FUNCTION real leastGrazing() { return real(1e-4); }
 
-// Sets tangent, bitangent, major and the lobe's u and v from the tensor (symmetric: xx, yy, zz and xy, xz, yz) restricted to the tangent
-// plane. u belongs to the major direction, along which the level set extends farther: a fibre's highlight is drawn out along it.
+// Sets tangent, bitangent, major and the lobe's u and v from the tensor (symmetric: xx, yy, zz and xy, xz, yz)
+// restricted to the tangent plane. u belongs to the major direction, along which the level set extends farther: a
+// fibre's highlight is drawn out along it.
 TETRALUX_GLSL_FUNCTION void setAnisotropy(LightModel model, vec3 diagonal, vec3 others, TETRALUX_GLSL_INOUT(LitPoint) point) {
     vec3 t = tangentOf(point.normal), b = bitangentOf(point.normal);
     vec3 ct = vec3(diagonal.x * t.x + others.x * t.y + others.y * t.z, others.x * t.x + diagonal.y * t.y + others.z * t.z,
@@ -118,7 +121,8 @@ TETRALUX_GLSL_FUNCTION real lafortuneLobe(LitPoint point, vec3 light, real expon
     return pow(max(point.along * along + point.across * across + normal, real(0.0)), exponent);
 }
 
-// Henyey–Greenstein's phase function times 4π: 1 on average over all directions. `cosine` is that of the angle of deflection.
+// Henyey–Greenstein's phase function times 4π: 1 on average over all directions. `cosine` is that of the angle of
+// deflection.
 TETRALUX_GLSL_FUNCTION real phaseFunction(real asymmetry, real cosine) {
     real square = asymmetry * asymmetry;
     real base = max(real(1.0) + square - real(2.0) * asymmetry * cosine, real(1e-6));
@@ -137,9 +141,10 @@ TETRALUX_GLSL_FUNCTION real highlight(LightModel model, LitPoint point, vec3 lig
     return pow(max(lobeCosine(model, point, light), real(0.0)), exponent);
 }
 
-// What one light adds to a segment per unit of α and of the light's colour: of Ward's and Lafortune's highlights, and of any beside a phase
-// function, k_d f_d + k_s f_s (l·n)₊ (Ament & Dachsbacher 2015, Equation 4), where n is turned to the eye; else one term of Kraus's Equation 19,
-// whose specular transmission stands about −l and has the material's colour. f_d is the phase function, or Equation 19's diffuse light.
+// What one light adds to a segment per unit of α and of the light's colour: of Ward's and Lafortune's highlights, and
+// of any beside a phase function, k_d f_d + k_s f_s (l·n)₊ (Ament & Dachsbacher 2015, Equation 4), where n is turned
+// to the eye; else one term of Kraus's Equation 19, whose specular transmission stands about −l and has the
+// material's colour. f_d is the phase function, or Equation 19's diffuse light.
 TETRALUX_GLSL_FUNCTION vec3 modelTerm(LightModel model, LitPoint point, vec3 diffuseColor, vec3 light) {
     real lightSide = dot(light, point.normal), straight = -dot(light, point.view);
     real facing = lightSide * point.side;

@@ -18,8 +18,7 @@ bool isPlain(const MaterialSide& side) {
 bool isPlain(const Material& material) {
     return material.diffuse == 1 && material.specular == 1 && material.diffuseTransmission == 1 &&
            material.specularTransmission == 1 && !material.phaseAsymmetry &&
-           material.specularByGradient == GradientSpecular::Off && isPlain(material.front) &&
-           isPlain(material.back);
+           material.specularByGradient == GradientSpecular::Off && isPlain(material.front) && isPlain(material.back);
 }
 
 }  // namespace

@@ -30,9 +30,9 @@ struct Light {
 enum class Reflectance {
     Phong,       ///< about 2n(n·l) − l
     BlinnPhong,  ///< (n·H)^exponent
-    Ward,        ///< roughness u = κ(λ₂/λ₁)^γ along U and v = κ along V, normalized; u ≤ max(κ, 10), 1/√((n·l)(n·v)) ≤ 100
-    Lafortune,   ///< (u·l_U·v_U − l_V·v_V + l_n·v_n)₊^exponent, u = 2(1 − exp(γ(1 − λ₂/λ₁))) − 1
-    None         ///< no highlights and no specular transmission
+    Ward,  ///< roughness u = κ(λ₂/λ₁)^γ along U and v = κ along V, normalized; u ≤ max(κ, 10), 1/√((n·l)(n·v)) ≤ 100
+    Lafortune,  ///< (u·l_U·v_U − l_V·v_V + l_n·v_n)₊^exponent, u = 2(1 − exp(γ(1 − λ₂/λ₁))) − 1
+    None        ///< no highlights and no specular transmission
 };
 
 /// Whose normal is lit, and whose direction silhouettes follow; the side of a segment is that of the cell's gradient in

@@ -14,7 +14,8 @@
 
 namespace tetralux::shading {
 
-/// `stride` floats per point, a multiple of four: a row. Each `…At` is the place of an attribute among them, −1: not there.
+/// `stride` floats per point, a multiple of four: a row. Each `…At` is the place of an attribute among them, −1: not
+/// there.
 struct VertexLight {
     int stride = 0;
     int normalAt = -1;    ///< three: gradient (vertex_gradients.h)
@@ -36,9 +37,9 @@ struct VertexLight {
     const float* of(std::size_t row) const { return values.data() + row * static_cast<std::size_t>(stride); }
 };
 
-/// The attributes that `settings` need, and samples if they are `sampled`; the anisotropy is `kept`, or else computed. What takes a transfer function is left for
-/// others to set (projection/light/light_shadows.h, projection/light/vertex_samples.h): shadows and specular factors
-/// are 1.
+/// The attributes that `settings` need, and samples if they are `sampled`; the anisotropy is `kept`, or else computed.
+/// What takes a transfer function is left for others to set (projection/light/light_shadows.h,
+/// projection/light/vertex_samples.h): shadows and specular factors are 1.
 VertexLight vertexLight(const mesh::ScalarMesh& mesh, const ShadingSettings& settings, bool sampled,
                         const std::vector<Tensor>* kept = nullptr);
 

@@ -23,8 +23,7 @@ namespace tetralux::mesh {
 namespace {
 
 bool acceptsVtkXml(const std::string& source) {
-    return hasExtension(source,
-                        {".vtu", ".vti", ".vtr", ".vts", ".vtp", ".vth", ".vthb"});
+    return hasExtension(source, {".vtu", ".vti", ".vtr", ".vts", ".vtp", ".vth", ".vthb"});
 }
 
 /// Reads what `source` holds by the reader for its extension: the generic one does not know all.

@@ -98,7 +98,8 @@ bool writeSoup(int file, const CellSoup& soup) {
     bool good = writeArray(file, soup.points) && writeArray(file, soup.types) && writeArray(file, soup.offsets) &&
                 writeArray(file, soup.connectivity) && writeArray(file, soup.faceOffsets) &&
                 writeArray(file, soup.faceStream) && writeArray(file, soup.hidden) && writeArray(file, soup.times) &&
-                writeArray(file, soup.tetrahedra) && writeStrings(file, soup.notes) && writeNames(file, soup.blockNames);
+                writeArray(file, soup.tetrahedra) && writeStrings(file, soup.notes) &&
+                writeNames(file, soup.blockNames);
     const std::uint64_t fields = soup.fields.size();
     good = good && writeAll(file, &fields, sizeof fields);
     for (const Field& field : soup.fields) {

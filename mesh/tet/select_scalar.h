@@ -30,13 +30,13 @@ struct ChosenScalar {
 /// A copy of one scalar, by the names that selectScalar takes. \throws std::runtime_error listing the fields there are.
 ChosenScalar scalarOf(const TetMesh& mesh, const std::string& name);
 
-/// Takes one scalar of `mesh`: `name` alone (vectors by magnitude), "name:0", "name:x" or "name:xy" (a component, by the
-/// file's own name for it too), or "" for the first point field, else the first cell field (numbers of points or cells
-/// do not count, nor a field without a value on any cell), else the coordinate along which the mesh is longest. Of a
-/// field on points and one on cells with the same name the first is meant; "name@cells" is the other. "x", "y" and "z"
-/// are the coordinates unless a field is called so. Consumes the mesh so that nothing is copied. Cells with a non-finite
-/// scalar are left out and counted in `report`. \throws std::runtime_error listing the fields there are when the name is
-/// wrong or no cell is left.
+/// Takes one scalar of `mesh`: `name` alone (vectors by magnitude), "name:0", "name:x" or "name:xy" (a component, by
+/// the file's own name for it too), or "" for the first point field, else the first cell field (numbers of points or
+/// cells do not count, nor a field without a value on any cell), else the coordinate along which the mesh is longest.
+/// Of a field on points and one on cells with the same name the first is meant; "name@cells" is the other. "x", "y" and
+/// "z" are the coordinates unless a field is called so. Consumes the mesh so that nothing is copied. Cells with a
+/// non-finite scalar are left out and counted in `report`. \throws std::runtime_error listing the fields there are when
+/// the name is wrong or no cell is left.
 ScalarSelection selectScalar(TetMesh&& mesh, const std::string& name, MeshReport& report);
 
 /// Leaves out the cells of `mesh` with a non-finite scalar, counted in `report`, and finds the range and the bounds of

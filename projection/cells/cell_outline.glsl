@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The convex polygon of four corners that a projected cell is drawn as, one text for C++ (gl_cell_outline.cpp) and GLSL. After covered_pixels.glsl. Pair is two `wide` (dvec2)
-// with their operators and dot.
+// The convex polygon of four corners that a projected cell is drawn as, one text for C++ (gl_cell_outline.cpp) and
+// GLSL. After covered_pixels.glsl. Pair is two `wide` (dvec2) with their operators and dot.
 
 struct OutlineCorners {
     Pair at[4];
@@ -15,7 +15,8 @@ TETRALUX_CELL_FUNCTION int faceVertex(int k, int i) {
     return i == 0 ? first : i == 1 ? second : third;
 }
 
-// A box along the hull's longest chord, grown by `margin`: covers needles and flat cells, whose hull has no usable corners.
+// A box along the hull's longest chord, grown by `margin`: covers needles and flat cells, whose hull has no usable
+// corners.
 TETRALUX_CELL_FUNCTION OutlineCorners boxOutline(TETRALUX_CELL_IN(OutlineCorners) corners, wide margin) {
     Pair chord = Pair(wide(1.0), wide(0.0));
     wide longest = wide(0.0);
@@ -47,7 +48,8 @@ TETRALUX_CELL_FUNCTION OutlineCorners boxOutline(TETRALUX_CELL_IN(OutlineCorners
     return outline;
 }
 
-// The convex polygon `hull` (count corners, counter-clockwise) with every edge moved outwards by `margin`. False when a corner is too sharp for that.
+// The convex polygon `hull` (count corners, counter-clockwise) with every edge moved outwards by `margin`. False when
+// a corner is too sharp for that.
 TETRALUX_CELL_FUNCTION bool growPolygon(TETRALUX_CELL_IN(OutlineCorners) hull, int count, wide margin, TETRALUX_CELL_INOUT(OutlineCorners) outline) {
     Pair normal[4];  // of the edge from corner i to the next, outwards
     for (int i = 0; i < count; ++i) {
@@ -98,7 +100,8 @@ TETRALUX_CELL_FUNCTION OutlineCorners hullOutline(TETRALUX_CELL_IN(OutlineCorner
         hull.at[2] = c;
         hull.at[3] = turned ? b : d;
         count = 4;
-        // The two triangles of the quadrilateral meet along corners 0 and 2: a short seam shades fewer blocks of pixels twice.
+        // The two triangles of the quadrilateral meet along corners 0 and 2: a short seam shades fewer blocks of
+        // pixels twice.
         Pair seam = c - a, other = hull.at[3] - hull.at[1];
         if (dot(other, other) < dot(seam, seam)) {
             Pair first = hull.at[0];
@@ -137,8 +140,8 @@ TETRALUX_CELL_FUNCTION OutlineCorners boxOfPixels(int x0, int y0, int x1, int y1
     return outline;
 }
 
-// What a cell with these corners is drawn as: its hull, or the rectangle of its pixels where it has none because it reaches behind the eye or too
-// far beyond the image.
+// What a cell with these corners is drawn as: its hull, or the rectangle of its pixels where it has none because it
+// reaches behind the eye or too far beyond the image.
 TETRALUX_CELL_FUNCTION OutlineCorners outlineOfCell(const Triple v[4], TETRALUX_CELL_IN(CellView) view, wide margin) {
     if (liesBeforeEye(v, view.orthographic)) {
         OutlineCorners corners;

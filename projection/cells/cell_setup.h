@@ -23,20 +23,21 @@ namespace tetralux::projection {
 /// One projected cell. Std430 layout of six vec4; the shader's struct mirrors it. The reference point c is the
 /// centroid, or for cells that reach behind the eye a point of the visible rectangle at half their largest depth.
 struct CellRecord {
-    float plane[4][3];           ///< rho of face k = plane[k][0] + plane[k][1]·dx + plane[k][2]·dy
-    float frontMask;             ///< Σ 2^k over faces that bound rho from above (0 … 15), a whole number
+    float plane[4][3];           ///< inverseDepth of face k = plane[k][0] + plane[k][1]·dx + plane[k][2]·dy
+    float frontMask;             ///< Σ 2^k over faces that bound inverseDepth from above (0 … 15), a whole number
     float pixelX, pixelY;        ///< whole pixel nearest to the projection of c
     float fractionX, fractionY;  ///< dx = (x − pixelX) − fractionX, likewise dy
     float scalar;                ///< at c, scene units
-    float scalarPerX, scalarPerY, scalarPerRho;
+    float scalarPerX, scalarPerY, scalarPerInverseDepth;
     float scalarLow, scalarHigh;  ///< over the cell's vertices, scene units
     float scale;  ///< z_c, scene lengths, less CameraFrame::depthOrigin; orthographic: z_c may be negative, L = |z_c|
 };
 static_assert(sizeof(CellRecord) == 24 * sizeof(float));
 
-/// Largest rho, that of the eye: where no face bounds rho from above the eye is in the cell. Orthographic views start
-/// at the eye's plane instead, where rho is the sign of `scale`: bound rho by that.
-inline constexpr float rhoAtEye = 1e30f;
+/// Largest inverseDepth, that of the eye: where no face bounds inverseDepth from above the eye is in the cell.
+/// Orthographic views start at the eye's plane instead, where inverseDepth is the sign of `scale`: bound inverseDepth
+/// by that.
+inline constexpr float inverseDepthAtEye = 1e30f;
 
 /// The gradient of one cell for silhouettes and light: unit normal g/|g| (zero if g = 0) in world space, and |g| in
 /// scene scalars per scene length.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What projected_cell.glsl needs in C++ and GLSL has: vectors of three `wide`. Included before it, in the same namespace; no guard, since it is
-// once for doubles and once per instruction set.
+// What projected_cell.glsl needs in C++ and GLSL has: vectors of three `wide`. Included before it, in the same
+// namespace; no guard, since it is once for doubles and once per instruction set.
 
 struct Triple {
     wide x, y, z;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a cell lies in the image, one text for C++ (cell_setup.cpp) and GLSL. After projected_cell.glsl; Pair is two `wide` (dvec2).
+// Where a cell lies in the image, one text for C++ (cell_setup.cpp) and GLSL. After projected_cell.glsl; Pair is two
+// `wide` (dvec2).
 
 // Reasons of SkipReason (cell_setup.h), as numbers.
 const int skipNone = 0, skipOutsideView = 1, skipNoPixelCentre = 2;
@@ -33,8 +34,8 @@ TETRALUX_CELL_FUNCTION void includePoint(TETRALUX_CELL_IN(Triple) p, TETRALUX_CE
     bounds.high = Pair(max(bounds.high.x, pixel.x), max(bounds.high.y, pixel.y));
 }
 
-// The first whole number from `low` on, of 0 to `limit`, and the first beyond `high`. Rounding down is converting: there are no negative pixels, and
-// floor() of doubles goes wrong in some places of Mesa 22.3.
+// The first whole number from `low` on, of 0 to `limit`, and the first beyond `high`. Rounding down is converting:
+// there are no negative pixels, and floor() of doubles goes wrong in some places of Mesa 22.3.
 TETRALUX_CELL_FUNCTION int firstPixel(wide low, int limit) {
     wide within = min(max(low, wide(0.0)), wide(limit));
     int whole = int(within);
@@ -83,7 +84,8 @@ TETRALUX_CELL_FUNCTION bool liesBeforeEye(const Triple v[4], bool orthographic) 
     return deepest > wide(0.0) && nearest >= wide(nearestDepthShare) * deepest;
 }
 
-// What a record refers to: the centroid of a cell well before the eye, else a point of its rectangle at half its largest depth.
+// What a record refers to: the centroid of a cell well before the eye, else a point of its rectangle at half its
+// largest depth.
 TETRALUX_CELL_FUNCTION CellReference referenceOfCell(TETRALUX_CELL_IN(CellForms) forms, const Triple v[4], TETRALUX_CELL_IN(CellView) view) {
     wide deepest = max(max(v[0].z, v[1].z), max(v[2].z, v[3].z));
     wide nearest = min(min(v[0].z, v[1].z), min(v[2].z, v[3].z));
@@ -100,7 +102,8 @@ TETRALUX_CELL_FUNCTION CellReference referenceOfCell(TETRALUX_CELL_IN(CellForms)
     return reference;
 }
 
-// Value `i` of CellRecord (cell_setup.h) from 12 on; 0 to 11 are the planes, by the cell's own numbering of its corners.
+// Value `i` of CellRecord (cell_setup.h) from 12 on; 0 to 11 are the planes, by the cell's own numbering of its
+// corners.
 TETRALUX_CELL_FUNCTION wide recordValue(int i, TETRALUX_CELL_IN(ProjectedCell) cell, TETRALUX_CELL_IN(CellReference) reference, const wide s[4], int frontMask,
                                         TETRALUX_CELL_IN(CellView) view) {
     Pair pixel = Pair(view.centre.x + reference.imageX, view.centre.y + reference.imageY);
@@ -114,7 +117,7 @@ TETRALUX_CELL_FUNCTION wide recordValue(int i, TETRALUX_CELL_IN(ProjectedCell) c
         case 17: return cell.scalar;
         case 18: return cell.scalarPerX;
         case 19: return cell.scalarPerY;
-        case 20: return cell.scalarPerRho;
+        case 20: return cell.scalarPerInverseDepth;
         case 21: return min(min(s[0], s[1]), min(s[2], s[3]));
         case 22: return max(max(s[0], s[1]), max(s[2], s[3]));
         default: return reference.depth - view.depthOrigin;

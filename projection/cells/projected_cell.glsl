@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The derivation of projected cells (cell_interval.glsl), one text for GLSL's doubles (gl_cell_setup.comp), for C++'s (projected_cell.h) and for
-// SIMD lanes of them (cpu_cell_batch.h). Included inside a namespace (no guard): once for doubles, and once per instruction set between
-// Highway's HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE. `wide` is the number: + - * /, unary -, <, wide(double), abs, min, max,
-// select(condition, wide, wide), copySign(magnitude, sign). Triple is three of them (cell_triple.inl, dvec3). TETRALUX_CELL_FUNCTION stands
-// before each function, TETRALUX_CELL_IN(type) and TETRALUX_CELL_INOUT(type) for parameters. `orthographic` is known when compiling, always.
+// The derivation of projected cells (cell_interval.glsl), one text for GLSL's doubles (gl_cell_setup.comp), for C++'s
+// (projected_cell.h) and for SIMD lanes of them (cpu_cell_batch.h). Included inside a namespace (no guard): once for
+// doubles, and once per instruction set between Highway's HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE. `wide` is the
+// number: + - * /, unary -, <, wide(double), abs, min, max, select(condition, wide, wide), copySign(magnitude, sign).
+// Triple is three of them (cell_triple.inl, dvec3). TETRALUX_CELL_FUNCTION stands before each function,
+// TETRALUX_CELL_IN(type) and TETRALUX_CELL_INOUT(type) for parameters. `orthographic` is known when compiling,
+// always.
 //
-// Corners come in ascending order of their point numbers, so that the two cells of a face compute the same numbers for it without sorting faces.
+// Corners come in ascending order of their point numbers, so that the two cells of a face compute the same numbers
+// for it without sorting faces.
 
-// Barycentric forms of a cell with corners a, b, c, d: λ_k(p) = (eye[k] + dot(normal[k], p))/determinant in the space of CameraPoint. All carry the
-// sign of the corners' orientation. Orthographic: eye[k] is the rate of determinant·λ_k towards the eye.
+// Barycentric forms of a cell with corners a, b, c, d: λ_k(p) = (eye[k] + dot(normal[k], p))/determinant in the space
+// of CameraPoint. All carry the sign of the corners' orientation. Orthographic: eye[k] is the rate of determinant·λ_k
+// towards the eye.
 struct CellForms {
     Triple a, ab, ac, ad;
     Triple normal[4];
@@ -36,8 +40,9 @@ TETRALUX_CELL_FUNCTION CellForms cellForms(TETRALUX_CELL_IN(Triple) a, TETRALUX_
     Triple sum = forms.normal[1] + forms.normal[2] + forms.normal[3];
     forms.normal[0] = Triple(-sum.x, -sum.y, -sum.z);
     forms.determinant = dot(forms.ab, forms.normal[1]);
-    // outward faces of a positive cell are b c d, a d c, a b d, a c b: corners in ascending order make every other one negative
-    // sums with 0 so that a face seen edge-on has +0: whoever compares with 0 and whoever copies the sign must agree
+    // outward faces of a positive cell are b c d, a d c, a b d, a c b: corners in ascending order make every other
+    // one negative sums with 0 so that a face seen edge-on has +0: whoever compares with 0 and whoever copies the
+    // sign must agree
     wide zero = wide(0.0);
     forms.eye[0] = zero + faceSide(b, c - b, d - b, orthographic);
     forms.eye[1] = zero - faceSide(a, forms.ac, forms.ad, orthographic);
@@ -83,16 +88,17 @@ TETRALUX_CELL_FUNCTION void coordinatesAt(TETRALUX_CELL_IN(CellForms) forms, TET
 // The float record of projection/cells/cell_interval.glsl, before it becomes float.
 struct ProjectedCell {
     wide plane[4][3];
-    wide scalar, scalarPerX, scalarPerY, scalarPerRho;
+    wide scalar, scalarPerX, scalarPerY, scalarPerInverseDepth;
     Triple gradient;  // of the scalar in the space of CameraPoint
 };
 
 // What corners 1, 2 and 3 have more than corner 0.
 TETRALUX_CELL_FUNCTION Triple riseOf(const wide s[4]) { return Triple(s[1] - s[0], s[2] - s[0], s[3] - s[0]); }
 
-// A rise in the field's own units to scene units. Differences of the field's numbers are exact where they nearly agree; those of scene scalars
-// are not. Which way the scalar rises counts for silhouettes and light however little it does, so a rise below `leastRise` is made as large as
-// that: scalars do not change by it (they are kept within the cell's own), and float holds it. No rise stays none.
+// A rise in the field's own units to scene units. Differences of the field's numbers are exact where they nearly
+// agree; those of scene scalars are not. Which way the scalar rises counts for silhouettes and light however little
+// it does, so a rise below `leastRise` is made as large as that: scalars do not change by it (they are kept within
+// the cell's own), and float holds it. No rise stays none.
 TETRALUX_CELL_FUNCTION Triple visibleRise(TETRALUX_CELL_IN(Triple) rise, wide scalarScale) {
     wide least = wide(leastRise);
     wide x = rise.x / scalarScale, y = rise.y / scalarScale, z = rise.z / scalarScale;
@@ -107,7 +113,7 @@ TETRALUX_CELL_FUNCTION ProjectedCell projectCell(TETRALUX_CELL_IN(CellForms) for
     ProjectedCell cell;
     wide size = abs(forms.determinant);
     wide lateral = orthographic ? wide(1.0) : reference.depth;
-    wide rhoToDepth = orthographic ? abs(reference.depth) : reference.depth;
+    wide inverseDepthToDepth = orthographic ? abs(reference.depth) : reference.depth;
     wide leastEye = size * wide(leastEyeCoordinate) + wide(leastDeterminant);
     wide bound = wide(largestPlane);
     wide eye[4];
@@ -133,6 +139,6 @@ TETRALUX_CELL_FUNCTION ProjectedCell projectCell(TETRALUX_CELL_IN(CellForms) for
     cell.scalarPerY = lateral * cell.gradient.y;
     wide alongDepth = orthographic ? cell.gradient.z
                                    : cell.gradient.x * reference.imageX + cell.gradient.y * reference.imageY + cell.gradient.z;
-    cell.scalarPerRho = -rhoToDepth * alongDepth;
+    cell.scalarPerInverseDepth = -inverseDepthToDepth * alongDepth;
     return cell;
 }

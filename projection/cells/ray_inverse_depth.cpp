@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <projection/cells/ray_nearness.h>
+#include <projection/cells/ray_inverse_depth.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,20 +19,21 @@ double roundedToFloat(double depth) {
     return static_cast<double>(static_cast<float>(depth));
 }
 
-float nearnessOf(double depth, double depthReference, bool orthographic) {
-    const double most = static_cast<double>(noNearnessLimit);
-    if (std::isinf(depth)) return depth > 0 ? -noNearnessLimit : noNearnessLimit;  // nothing is nearer, or all is
-    double nearness = depthReference - depth;
-    if (!orthographic) nearness = depth > 0 ? nearness / depth : most;
-    return static_cast<float>(std::clamp(nearness, -most, most));
+float inverseDepthOf(double depth, double depthReference, bool orthographic) {
+    const double most = static_cast<double>(noInverseDepthLimit);
+    if (std::isinf(depth))
+        return depth > 0 ? -noInverseDepthLimit : noInverseDepthLimit;  // nothing is nearer, or all is
+    double rayInverseDepth = depthReference - depth;
+    if (!orthographic) rayInverseDepth = depth > 0 ? rayInverseDepth / depth : most;
+    return static_cast<float>(std::clamp(rayInverseDepth, -most, most));
 }
 
 }  // namespace
 
-NearnessMaps nearnessMaps(const PixelMaps& maps, const CameraFrame& frame, const SceneUnits& units,
-                          double depthReference) {
+InverseDepthMaps inverseDepthMaps(const PixelMaps& maps, const CameraFrame& frame, const SceneUnits& units,
+                                  double depthReference) {
     const auto width = static_cast<std::size_t>(frame.width), height = static_cast<std::size_t>(frame.height);
-    NearnessMaps result;
+    InverseDepthMaps result;
     result.nearest.resize(maps.nearest.size());
     result.farthest.resize(maps.farthest.size());
     result.cutLayerEnd.resize(maps.cutLayerEnd.size());
@@ -45,13 +46,14 @@ NearnessMaps nearnessMaps(const PixelMaps& maps, const CameraFrame& frame, const
                                          : std::sqrt(1.0 + glm::dot(frame.perPixelRight, frame.perPixelRight) *
                                                                glm::dot(fromAxis, fromAxis));
             const auto at = [&](double distance) {
-                return nearnessOf(distance / units.length / rayLength, depthReference, frame.orthographic);
+                return inverseDepthOf(distance / units.length / rayLength, depthReference, frame.orthographic);
             };
             // what lies before the eye limits nothing there
-            if (!maps.nearest.empty()) result.nearest[i] = maps.nearest[i] > 0 ? at(maps.nearest[i]) : noNearnessLimit;
+            if (!maps.nearest.empty())
+                result.nearest[i] = maps.nearest[i] > 0 ? at(maps.nearest[i]) : noInverseDepthLimit;
             if (!maps.farthest.empty()) result.farthest[i] = at(maps.farthest[i]);
             if (!maps.cutLayerEnd.empty())
-                result.cutLayerEnd[i] = maps.cutLayerEnd[i] > 0 ? at(maps.cutLayerEnd[i]) : noNearnessLimit;
+                result.cutLayerEnd[i] = maps.cutLayerEnd[i] > 0 ? at(maps.cutLayerEnd[i]) : noInverseDepthLimit;
         }
     });
     return result;

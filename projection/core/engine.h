@@ -32,18 +32,19 @@ struct FrameReport {
     std::uint64_t tilesRetired = 0;  ///< tiles that were opaque before their cells were drawn
     std::string orderMethod;         ///< how visibility order was found; "none" when not needed
     std::uint64_t cellsSorted = 0;
-    std::string orderUpkeep = "none";  ///< "sorted", "kept" or "repaired" of the last frame's; "none" when not needed
-    std::uint64_t failingFaces = 0;    ///< inner faces that fail the certificate of power order, of a convex mesh
-    std::uint64_t orderCycles = 0;     ///< cells left in cycles of the visibility relation
+    std::string incrementalSort =
+        "none";                      ///< "sorted", "kept" or "repaired" of the last frame's; "none" when not needed
+    std::uint64_t failingFaces = 0;  ///< inner faces that fail the certificate of power order, of a convex mesh
+    std::uint64_t orderCycles = 0;   ///< cells left in cycles of the visibility relation
     /// Pixels (y·width + x, ascending) that the engine could not order with certainty; makeEngine's engines have them
     /// composed exactly afterwards and count them as repaired.
-    std::vector<std::uint32_t> doubtfulPixels;
+    std::vector<std::uint32_t> uncertainPixels;
     /// Where samples stand beside the centres (pixels), of engines in which floats say on which side of a face they run
     /// (edge_on_faces.h); none where double does.
     std::optional<glm::dvec2> floatSamples;
     std::uint64_t pixelsRepaired = 0;  ///< composed by the reference: those that the engine cannot vouch for
     std::map<std::string, std::uint64_t> repairedBecause;  ///< how many of them by reason, the first that was found
-    /// Doubtful pixels that were not repaired: 0 but for OrderMethod::Centroid. cpu tells those in which it sees cells
+    /// Uncertain pixels that were not repaired: 0 but for OrderMethod::Centroid. cpu tells those in which it sees cells
     /// out of order, gl those in which two that follow one another may be, which are more.
     std::uint64_t pixelsWrong = 0;
     std::string dataPath;  ///< gl: "stream", "resident" or "tiles" (gl_path.h), and why

@@ -17,8 +17,8 @@ enum class Mode {
     Mip,      ///< the largest scalar along the ray, coloured by c
     Minimum,  ///< the smallest one
     Average,  ///< the length-weighted mean of the scalar, coloured by c
-    Additive,  ///< C = ∫ c τ dt, a peak adds α₀·colour; nothing hides anything. Alpha = min(1, ∫ τ dt + Σ α₀): how much
-               ///< of the background goes. Colours may exceed 1
+    Additive,  ///< C = ∫ c τ dt, an isosurface adds α₀·colour; nothing hides anything. Alpha = min(1, ∫ τ dt + Σ α₀):
+               ///< how much of the background goes. Colours may exceed 1
     DataAdditive,  ///< Additive with |ds| in dt's place: what counts is how much the scalar varies
     Emission,      ///< the same light with alpha 0 (Max 1995, "emission only"): it is added to the background
     Absorption,  ///< black, alpha = 1 − exp(−∫ τ dt) (Max 1995, "absorption only"): a radiograph over its background
@@ -55,9 +55,9 @@ DepthRange depthRange(const mesh::BoundingBox& bounds, const Camera& camera);
 /// What a segment from s_f to s_b with path P (its length, or |s_b − s_f| in the scale-invariant integral) shows.
 enum class Classification {
     Preintegrated,  ///< the integral itself
-    Post,           ///< Kraus 2005, Eq. 10 and 11: colour c(s_m), α = 1 − exp(−τ(s_m)·P), s_m = (s_f + s_b)/2; no peaks
-    PostLinear,     ///< the approximation at the end of Eq. 11: α = min(1, τ(s_m)·P)
-    Pre             ///< τ and c at the vertices, interpolated to the segment's middle, instead of those of s_m
+    Post,  ///< Kraus 2005, Eq. 10 and 11: colour c(s_m), α = 1 − exp(−τ(s_m)·P), s_m = (s_f + s_b)/2; no isosurfaces
+    PostLinear,  ///< the approximation at the end of Eq. 11: α = min(1, τ(s_m)·P)
+    Pre          ///< τ and c at the vertices, interpolated to the segment's middle, instead of those of s_m
 };
 
 /// Locally adaptive opacity: adaptive_opacity.h tells what each of these is.

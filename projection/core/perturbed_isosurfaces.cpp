@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <projection/core/lowered_isosurfaces.h>
+#include <projection/core/perturbed_isosurfaces.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ bool jumpsAt(const Nodes& nodes, double value) {
 
 }  // namespace
 
-Scene withTiesAbove(const Scene& scene, double share) {
+Scene withPerturbedIsosurfaces(const Scene& scene, double share) {
     Scene result = scene;
     const mesh::ScalarMesh& mesh = *scene.mesh;
     constexpr double steps = 4.0;  // of double at the scalars themselves, where the range is small beside them

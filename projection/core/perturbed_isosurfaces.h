@@ -12,11 +12,11 @@ namespace tetralux::projection {
 /// along the axes of grids. By definition s = v is not below v. Rounding must not decide otherwise for one pixel, or
 /// one cell of two, and not for the next: so isosurfaces stand lower by what rounding may amount to, a share of the
 /// range.
-inline constexpr double floatTie = 0x1p-21;   ///< fast engines: scalars of 0 … 1 at crossings of float planes
-inline constexpr double doubleTie = 0x1p-33;  ///< the reference: double, and rays 2⁻³² pixel beside the centre
+inline constexpr double floatPerturbation = 0x1p-21;  ///< fast engines: scalars of 0 … 1 at crossings of float planes
+inline constexpr double doublePerturbation = 0x1p-33;  ///< the reference: double, and rays 2⁻³² pixel beside the centre
 
 /// The scene with isosurfaces lower by `share` of the field's range, but for those that coincide with a jump of the
 /// transfer function, which are to stay on their side of it.
-Scene withTiesAbove(const Scene& scene, double share);
+Scene withPerturbedIsosurfaces(const Scene& scene, double share);
 
 }  // namespace tetralux::projection

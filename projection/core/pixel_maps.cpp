@@ -62,10 +62,11 @@ void checkPixelMaps(const View& view) {
         throw std::runtime_error("pixel map 'cutNormal': not of the size of 'cutLayerEnd'; give both or neither");
     check("extinctionScale", view.maps->extinctionScale.size());
     check("behind", view.maps->behind.size());
-    const std::vector<Veil>& veils = view.maps->veils;
-    if (!std::is_sorted(veils.begin(), veils.end()) || (!veils.empty() && veils.back().pixel >= wanted))
+    const std::vector<TranslucentFragment>& translucent = view.maps->translucent;
+    if (!std::is_sorted(translucent.begin(), translucent.end()) ||
+        (!translucent.empty() && translucent.back().pixel >= wanted))
         throw std::runtime_error(fmt::format(
-            "pixel map 'veils': not ascending within an image of {}x{}; sort them by pixel, then by distance",
+            "pixel map 'translucent': not ascending within an image of {}x{}; sort them by pixel, then by distance",
             view.camera.width, view.camera.height));
 }
 

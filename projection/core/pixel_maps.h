@@ -17,37 +17,37 @@
 namespace tetralux::projection {
 
 /// Something that lets part of what is behind it through: a slice with opacity.
-struct Veil {
+struct TranslucentFragment {
     std::uint32_t pixel;  ///< y·width + x
     double distance;      ///< along the unit ray, mesh units
     glm::vec4 color;      ///< premultiplied RGBA
 
     /// By pixel, then from the eye on.
-    bool operator<(const Veil& other) const {
+    bool operator<(const TranslucentFragment& other) const {
         return pixel != other.pixel ? pixel < other.pixel : distance < other.distance;
     }
 };
 
-/// Each vector but `veils` is empty (nothing) or has width·height elements, row-major, row 0 at the top. Engines honour
-/// all but `behind`, which composes the finished volume (view_maps.h), and `veils`, between which it is drawn part by
-/// part (veiled_volume.h); the reference honours those by itself.
+/// Each vector but `translucent` is empty (nothing) or has width·height elements, row-major, row 0 at the top. Engines
+/// honour all but `behind`, which composes the finished volume (view_maps.h), and `translucent`, between which it is
+/// drawn part by part (translucent_slices.h); the reference honours those by itself.
 struct PixelMaps {
-    std::vector<double>
-        nearest;  ///< distance along the unit ray (mesh units) before which nothing of the volume is seen
+    /// Distance along the unit ray (mesh units) before which nothing of the volume is seen.
+    std::vector<double> nearest;
     std::vector<double> farthest;        ///< distance behind which nothing of the volume is seen (an opaque surface)
     std::vector<double> cutLayerEnd;     ///< distance up to which the ray runs within the layer of a cut, whose normal
                                          ///< is lit there in the place of the field's; 0: no layer
     std::vector<glm::vec3> cutNormal;    ///< of that layer: world space, unit, towards the eye's side
     std::vector<float> extinctionScale;  ///< factor of extinction and of the depth of isosurfaces, ≥ 0
     std::vector<glm::vec4> behind;       ///< premultiplied RGBA put under the volume (slices, opaque surfaces)
-    std::vector<Veil> veils;             ///< within the volume, between nearest and farthest; ascending
+    std::vector<TranslucentFragment> translucent;  ///< within the volume, between nearest and farthest; ascending
 
     bool empty() const {
-        return nearest.empty() && farthest.empty() && extinctionScale.empty() && behind.empty() && veils.empty();
+        return nearest.empty() && farthest.empty() && extinctionScale.empty() && behind.empty() && translucent.empty();
     }
     /// Whether engines have to look at the maps.
     bool changeVolume() const {
-        return !nearest.empty() || !farthest.empty() || !extinctionScale.empty() || !veils.empty();
+        return !nearest.empty() || !farthest.empty() || !extinctionScale.empty() || !translucent.empty();
     }
 };
 
@@ -86,8 +86,8 @@ void cutFarther(const Camera& camera, PixelMaps& maps, std::size_t pixel, double
 /// An opaque point at `distance` with that colour (RGB, display values), where it is nearer than what is there already.
 void putOpaque(const Camera& camera, PixelMaps& maps, std::size_t pixel, double distance, const glm::vec3& color);
 
-/// \throws std::runtime_error when a vector of the maps is neither empty nor of the camera's size, or veils lie outside
-/// the image or in no order.
+/// \throws std::runtime_error when a vector of the maps is neither empty nor of the camera's size, or translucent
+/// fragments lie outside the image or in no order.
 void checkPixelMaps(const View& view);
 
 /// Puts `maps.behind` under the finished volume.

@@ -35,7 +35,7 @@ struct RenderSettings {
     double largestExtinctionScale = 0.0;  ///< of the pixel maps that views will bring; 0: they bring none
     preint::TableOptions table;
     static constexpr int threadsOfCaller = -1;
-    int threads = 0;  ///< 0: all; or those of the arena in which the engine is made and asked for frames
+    int threads = 0;  ///< 0: all; threadsOfCaller: those of the arena in which the engine is made and asked for frames
     /// The cpu engine walks along every node of the transfer function. Off: where there are many, it takes runs of
     /// nodes that a line meets within 1e-5 as one.
     bool everyNode = false;

@@ -108,15 +108,15 @@ ScalarColors::ScalarColors(const preint::TransferFunction& function, bool exact)
         if (!(most * std::min(1.0, 2.0 * rounding / std::max(width, 1e-300)) > largestChange)) continue;
         if (exact && function.color[i].scalar == function.color[i + 1].scalar) continue;
         const glm::vec2 range(nodes[i].scalar - rounding, nodes[i + 1].scalar + rounding);
-        if (!doubtful_.empty() && range.x <= doubtful_.back().y)
-            doubtful_.back().y = range.y;
+        if (!uncertain_.empty() && range.x <= uncertain_.back().y)
+            uncertain_.back().y = range.y;
         else
-            doubtful_.push_back(range);
+            uncertain_.push_back(range);
     }
 }
 
-bool ScalarColors::doubts(float scalar) const {
-    return std::any_of(doubtful_.begin(), doubtful_.end(),
+bool ScalarColors::isUncertain(float scalar) const {
+    return std::any_of(uncertain_.begin(), uncertain_.end(),
                        [&](const glm::vec2& range) { return scalar >= range.x && scalar <= range.y; });
 }
 

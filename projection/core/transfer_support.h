@@ -50,18 +50,18 @@ std::optional<glm::dvec3> onlyColor(const preint::TransferFunction& function);
 /// The colour of one scalar that was gathered in float (extreme and mean scalars).
 class ScalarColors {
 public:
-    /// `function` in the units of the scalars (0 … 1). `exact`: they are neither interpolated nor summed, so that one that is a
-    /// node's is the same float; then the value at a jump is that from above.
+    /// `function` in the units of the scalars (0 … 1). `exact`: they are neither interpolated nor summed, so that one
+    /// that is a node's is the same float; then the value at a jump is that from above.
     ScalarColors(const preint::TransferFunction& function, bool exact);
 
     glm::dvec3 at(float scalar) const { return function_.colorAt(static_cast<double>(scalar)); }
 
     /// Whether rounding of the scalar may show.
-    bool doubts(float scalar) const;
+    bool isUncertain(float scalar) const;
 
 private:
-    preint::TransferFunction function_;   // its nodes rounded as scalars are
-    std::vector<glm::vec2> doubtful_;     // ascending, disjoint: scalars near which the colour changes steeply
+    preint::TransferFunction function_;  // its nodes rounded as scalars are
+    std::vector<glm::vec2> uncertain_;   // ascending, disjoint: scalars near which the colour changes steeply
 };
 
 /// Which cells of a mesh show anything at all.

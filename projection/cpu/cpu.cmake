@@ -6,16 +6,16 @@ target_sources(tetralux_projection PRIVATE
   cpu/cpu_bins.cpp
   cpu/cpu_cull_kernel.cpp
   cpu/cpu_engine.cpp
-  cpu/cpu_limited_kernel.cpp
+  cpu/cpu_clipped_kernel.cpp
   cpu/cpu_limits.cpp
   cpu/cpu_order.cpp
-  cpu/cpu_quick_look.cpp
+  cpu/cpu_quick_variant.cpp
   cpu/cpu_special_cell.cpp
   cpu/cpu_tile_kernel.cpp
   cpu/cpu_transfer.cpp
 )
 target_link_libraries(tetralux_projection PRIVATE PkgConfig::Highway)
-set(kernels cpu/cpu_cull_kernel.cpp cpu/cpu_limited_kernel.cpp cpu/cpu_tile_kernel.cpp)
+set(kernels cpu/cpu_cull_kernel.cpp cpu/cpu_clipped_kernel.cpp cpu/cpu_tile_kernel.cpp)
 # Sanitizers read one copy of the kernels as well as all of them, and an instrumented one takes minutes to compile; whoever
 # works on kernels waits for one copy too.
 if(TETRALUX_SANITIZE)

@@ -20,7 +20,7 @@ void TileBins::reset(std::size_t chunks, int tilesX, int tilesY) {
     tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) { std::fill_n(counts(c), tiles_, 0u); });
 }
 
-void TileBins::fill(const Survivor* survivors, const std::vector<SurvivorChunk>& chunks, double nearest,
+void TileBins::fill(const VisibleCell* visibleCells, const std::vector<VisibleCellChunk>& chunks, double nearest,
                     double farthest, const std::uint32_t* cellPlaces, const FrameControl* control) {
     start_.resize(tiles_ + 1);
     tbb::parallel_for(std::size_t{0}, tiles_, [&](std::size_t tile) {
@@ -40,11 +40,12 @@ void TileBins::fill(const Survivor* survivors, const std::vector<SurvivorChunk>&
         checkStop(control);
         std::uint32_t* places = counts(c);
         for (std::size_t i = chunks[c].begin; i < chunks[c].begin + chunks[c].count; ++i) {
-            const Survivor& survivor = survivors[i];
-            const TileEntry entry{cellPlaces ? cellPlaces[survivor.cell] : orderedKey(survivor.key, nearest, farthest),
-                                  survivor.cell};
-            for (std::size_t y = survivor.y0; y <= survivor.y1; ++y)
-                for (std::size_t tile = y * tilesX_ + survivor.x0; tile <= y * tilesX_ + survivor.x1; ++tile)
+            const VisibleCell& visibleCell = visibleCells[i];
+            const TileEntry entry{
+                cellPlaces ? cellPlaces[visibleCell.cell] : orderedKey(visibleCell.key, nearest, farthest),
+                visibleCell.cell};
+            for (std::size_t y = visibleCell.y0; y <= visibleCell.y1; ++y)
+                for (std::size_t tile = y * tilesX_ + visibleCell.x0; tile <= y * tilesX_ + visibleCell.x1; ++tile)
                     entries_[start_[tile] + places[tile]++] = entry;
         }
     });

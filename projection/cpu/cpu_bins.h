@@ -12,8 +12,8 @@
 
 namespace tetralux::projection {
 
-/// Survivors in chunks, each a run within one array, so that chunks are filled by any thread and read in order.
-struct SurvivorChunk {
+/// Visible cells in chunks, each a run within one array, so that chunks are filled by any thread and read in order.
+struct VisibleCellChunk {
     std::size_t begin, count;
 };
 
@@ -23,11 +23,11 @@ public:
     void reset(std::size_t chunks, int tilesX, int tilesY);
     std::uint32_t* counts(std::size_t chunk) { return places_.data() + chunk * tiles_; }
 
-    /// Lists every survivor in each tile of its rectangle, as many as were counted, in the order of the chunks: the
+    /// Lists every visible cell in each tile of its rectangle, as many as were counted, in the order of the chunks: the
     /// same for any number of threads. Keys become whole numbers that ascend from `nearest` down to `farthest`; with
     /// `places` those of the cells are taken instead.
-    void fill(const Survivor* survivors, const std::vector<SurvivorChunk>& chunks, double nearest, double farthest,
-              const std::uint32_t* places, const FrameControl* control);
+    void fill(const VisibleCell* visibleCells, const std::vector<VisibleCellChunk>& chunks, double nearest,
+              double farthest, const std::uint32_t* places, const FrameControl* control);
 
     /// Sorts each tile's list by key; equal keys keep their order.
     void sort(const FrameControl* control);

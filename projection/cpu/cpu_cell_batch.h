@@ -110,7 +110,7 @@ HWY_INLINE void keepInDouble(const ProjectedCell& cell, wide offsetX, wide offse
     store(cell.scalar, steep.scalar);
     store(cell.scalarPerX, steep.scalarPerX);
     store(cell.scalarPerY, steep.scalarPerY);
-    store(cell.scalarPerRho, steep.scalarPerRho);
+    store(cell.scalarPerInverseDepth, steep.scalarPerInverseDepth);
 }
 
 /// Rectangles within the tile from the corners' pixels, as (x, y) pairs in float lanes; true when a corner lies behind
@@ -212,7 +212,7 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
     storeFloats(cell.scalar, &batch.scalar[j]);
     storeFloats(cell.scalarPerX, &batch.scalarPerX[j]);
     storeFloats(cell.scalarPerY, &batch.scalarPerY[j]);
-    storeFloats(cell.scalarPerRho, &batch.scalarPerRho[j]);
+    storeFloats(cell.scalarPerInverseDepth, &batch.scalarPerInverseDepth[j]);
     storeFloats(reference.depth, &batch.scale[j]);
     const wide offsetX = wide(tileX - frame.centre.x) - reference.imageX,
                offsetY = wide(tileY - frame.centre.y) - reference.imageY;
@@ -226,11 +226,12 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
                deepest = max(max(p[0].z, p[1].z), max(p[2].z, p[3].z));
     const auto depths =
         depthBounds(frame.depthReference, reference.depth, reference.perDepth, nearest, deepest, Orthographic);
-    storeFloats(depths.rhoNear, &batch.rhoNear[j]);
-    storeFloats(depths.rhoFar, &batch.rhoFar[j]);
-    storeFloats(depths.nearnessPerRho, &batch.nearnessPerRho[j]);
-    storeFloats(depths.nearness - wide(frame.orderTolerance) - depths.rounding, &batch.nearnessChecked[j]);
-    storeFloats(depths.nearness, &batch.nearness[j]);
+    storeFloats(depths.inverseDepthNear, &batch.inverseDepthNear[j]);
+    storeFloats(depths.inverseDepthFar, &batch.inverseDepthFar[j]);
+    storeFloats(depths.rayPerInverseDepth, &batch.rayPerInverseDepth[j]);
+    storeFloats(depths.rayInverseDepth - wide(frame.orderTolerance) - depths.rounding,
+                &batch.rayInverseDepthChecked[j]);
+    storeFloats(depths.rayInverseDepth, &batch.rayInverseDepth[j]);
     if constexpr (gradients != GradientParts::None) {
         const wide inverse(1.0 / frame.pixel);
         const wide gx = cell.gradient.x * inverse, gy = cell.gradient.y * inverse, gz = cell.gradient.z;

@@ -17,16 +17,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace tetralux::projection::HWY_NAMESPACE {
 
-/// Entering and leaving nearness ratio of the block's rays in cell j.
+/// Entering and leaving inverse depth ratio of the block's rays in cell j.
 HWY_INLINE void cellInterval(const CellBatch& batch, std::size_t j, const FaceOrder& order, real dx, real dy, real& in,
                              real& out) {
-    auto rho = [&](int k) HWY_ATTR {
+    auto inverseDepth = [&](int k) HWY_ATTR {
         const auto& plane = batch.plane[order.face[k]];
-        return planeRho(cell_real{plane[0][j]}, cell_real{plane[1][j]}, cell_real{plane[2][j]}, dx, dy);
+        return planeInverseDepth(cell_real{plane[0][j]}, cell_real{plane[1][j]}, cell_real{plane[2][j]}, dx, dy);
     };
-    in = real(batch.rhoNear[j]);
-    out = real(batch.rhoFar[j]);
-    const real r0 = rho(0), r1 = rho(1), r2 = rho(2), r3 = rho(3);
+    in = real(batch.inverseDepthNear[j]);
+    out = real(batch.inverseDepthFar[j]);
+    const real r0 = inverseDepth(0), r1 = inverseDepth(1), r2 = inverseDepth(2), r3 = inverseDepth(3);
     switch (order.fronts) {
         case 1:
             in = min(in, r0);
@@ -60,7 +60,7 @@ struct CellBlocks {
 struct Block {
     std::size_t j, at;     ///< cell of the batch, place in the accumulators
     int x, y;              ///< first pixel within the tile
-    real dx, dy, in, out;  ///< pixels from the cell's reference point, nearness there
+    real dx, dy, in, out;  ///< pixels from the cell's reference point, inverse depth there
     real rayLength;        ///< per unit depth
     bool inCutLayer;       ///< the segments lie in the layer of a cut: its normal is lit
 };
@@ -69,7 +69,7 @@ struct Block {
 HWY_INLINE real cellFall(const CellBatch& batch, std::size_t j, real dx, real dy, bool orthographic) {
     real across(0.0f);
     if (!orthographic) across = real(batch.scalarPerX[j]) * dx + real(batch.scalarPerY[j]) * dy;
-    return scalarFall(across, cell_real{batch.scalarPerRho[j]});
+    return scalarFall(across, cell_real{batch.scalarPerInverseDepth[j]});
 }
 
 }  // namespace tetralux::projection::HWY_NAMESPACE

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// The kernels for everything: limits, other classifications, modes that hide nothing (cpu_limited_segment.h), extreme
+/// The kernels for everything: limits, other classifications, modes that hide nothing (cpu_clipped_segment.h), extreme
 /// and mean scalars.
 #include <projection/cpu/cpu_targets.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "projection/cpu/cpu_limited_kernel.cpp"
+#define HWY_TARGET_INCLUDE "projection/cpu/cpu_clipped_kernel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -15,31 +15,31 @@ HWY_BEFORE_NAMESPACE();
 namespace tetralux::projection::HWY_NAMESPACE {
 
 template <TileKind Kind>
-void drawLimitedAs(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+void drawClippedAs(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
                    TileResult& result) {
     drawTileAs<Kind, false, true, true>(frame, x0, y0, entries, image, result);
 }
 
-void drawLimitedTileHere(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+void drawClippedTileHere(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
                          TileResult& result) {
     switch (frame.kind) {
         case TileKind::Mip:
-            return drawLimitedAs<TileKind::Mip>(frame, x0, y0, entries, image, result);
+            return drawClippedAs<TileKind::Mip>(frame, x0, y0, entries, image, result);
         case TileKind::Minimum:
-            return drawLimitedAs<TileKind::Minimum>(frame, x0, y0, entries, image, result);
+            return drawClippedAs<TileKind::Minimum>(frame, x0, y0, entries, image, result);
         case TileKind::Average:
-            return drawLimitedAs<TileKind::Average>(frame, x0, y0, entries, image, result);
+            return drawClippedAs<TileKind::Average>(frame, x0, y0, entries, image, result);
         case TileKind::Absorption:
-            return drawLimitedAs<TileKind::Absorption>(frame, x0, y0, entries, image, result);
+            return drawClippedAs<TileKind::Absorption>(frame, x0, y0, entries, image, result);
         case TileKind::Composite:
         case TileKind::Shaded:
-            return drawLimitedAs<TileKind::Shaded>(frame, x0, y0, entries, image, result);
+            return drawClippedAs<TileKind::Shaded>(frame, x0, y0, entries, image, result);
         case TileKind::FirstHit:
-            return drawLimitedAs<TileKind::FirstHit>(frame, x0, y0, entries, image, result);
+            return drawClippedAs<TileKind::FirstHit>(frame, x0, y0, entries, image, result);
         case TileKind::Additive:
-            return drawLimitedAs<TileKind::Additive>(frame, x0, y0, entries, image, result);
+            return drawClippedAs<TileKind::Additive>(frame, x0, y0, entries, image, result);
         case TileKind::Depth:
-            return drawLimitedAs<TileKind::Depth>(frame, x0, y0, entries, image, result);
+            return drawClippedAs<TileKind::Depth>(frame, x0, y0, entries, image, result);
     }
 }
 
@@ -49,11 +49,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tetralux::projection {
 
-HWY_EXPORT(drawLimitedTileHere);
+HWY_EXPORT(drawClippedTileHere);
 
-void drawLimitedTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+void drawClippedTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
                      TileResult& result) {
-    HWY_DYNAMIC_DISPATCH(drawLimitedTileHere)(frame, x0, y0, entries, image, result);
+    HWY_DYNAMIC_DISPATCH(drawClippedTileHere)(frame, x0, y0, entries, image, result);
 }
 
 }  // namespace tetralux::projection

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// What only the kernel with limits holds (drawLimitedTile): pixel maps, other classifications, modes that hide
+/// What only the kernel with limits holds (drawClippedTile): pixel maps, other classifications, modes that hide
 /// nothing. Included once per instruction set.
 #include <projection/cpu/cpu_shading.h>
 
@@ -8,11 +8,11 @@
 #include <projection/cpu/cpu_special_cell.h>
 #include <projection/cpu/cpu_tile.h>
 
-#if defined(TETRALUX_CPU_LIMITED_SEGMENT_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef TETRALUX_CPU_LIMITED_SEGMENT_H
-#undef TETRALUX_CPU_LIMITED_SEGMENT_H
+#if defined(TETRALUX_CPU_CLIPPED_SEGMENT_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TETRALUX_CPU_CLIPPED_SEGMENT_H
+#undef TETRALUX_CPU_CLIPPED_SEGMENT_H
 #else
-#define TETRALUX_CPU_LIMITED_SEGMENT_H
+#define TETRALUX_CPU_CLIPPED_SEGMENT_H
 #endif
 
 HWY_BEFORE_NAMESPACE();
@@ -43,24 +43,24 @@ struct LimitBuffers {
 };
 
 /// Opacity of an isosurface whose depth is multiplied.
-HWY_INLINE real scaledPeakOpacity(const TransferPeak& peak, real scale) {
-    const real depth = real(peak.depth) * scale;
+HWY_INLINE real scaledIsosurfaceOpacity(const TransferIsosurface& isosurface, real scale) {
+    const real depth = real(isosurface.depth) * scale;
     const real opacity = real(1.0f) - exp(-depth);
     return select(depth < pieceDepthLimit(), pieceOpacity(min(depth, pieceDepthLimit())), opacity);
 }
 
-/// SegmentSink where extinction is scaled: paths are already, isosurfaces are here.
-struct ScaledSegmentSink : SegmentSink {
+/// SegmentAccumulator where extinction is scaled: paths are already, isosurfaces are here.
+struct ScaledSegmentAccumulator : SegmentAccumulator {
     real scale;
 
-    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) {
-        const real alpha = keep(crossed, scaledPeakOpacity(peak, scale)), ta = t * alpha;
+    HWY_INLINE void addIsosurface(const TransferIsosurface& isosurface, mask crossed) {
+        const real alpha = keep(crossed, scaledIsosurfaceOpacity(isosurface, scale)), ta = t * alpha;
         opacity += ta;
-        r += real(peak.color[0]) * ta;
-        g += real(peak.color[1]) * ta;
-        b += real(peak.color[2]) * ta;
+        r += real(isosurface.color[0]) * ta;
+        g += real(isosurface.color[1]) * ta;
+        b += real(isosurface.color[2]) * ta;
         t = t - ta;
-        otherDepth = otherDepth + keep(crossed, real(peak.depth) * scale);
+        otherDepth = otherDepth + keep(crossed, real(isosurface.depth) * scale);
     }
     /// One colour stands for the segment: post- and pre-classification's sample, or the mean of what shows.
     HWY_INLINE void setMean(real meanR, real meanG, real meanB, real smooth, real other) {
@@ -73,15 +73,15 @@ struct ScaledSegmentSink : SegmentSink {
     }
 };
 
-struct ScaledDepthSink : DepthSink {
+struct ScaledDepthAccumulator : DepthAccumulator {
     real scale;
-    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) {
-        depth = depth + keep(crossed, real(peak.depth) * scale);
+    HWY_INLINE void addIsosurface(const TransferIsosurface& isosurface, mask crossed) {
+        depth = depth + keep(crossed, real(isosurface.depth) * scale);
     }
 };
 
 /// ∫ c τ along one segment, nothing hidden, with smooth depth and the sum of isosurfaces' opacities.
-struct EmissionSink {
+struct EmissionAccumulator {
     static constexpr bool depthOnly = false, hides = false;
     real r, g, b, smoothDepth, otherDepth, scale;
 
@@ -90,11 +90,11 @@ struct EmissionSink {
         g += real(piece.color[1]) * depth + real(piece.colorSlope[1]) * weighted;
         b += real(piece.color[2]) * depth + real(piece.colorSlope[2]) * weighted;
     }
-    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) {
-        const real opacity = keep(crossed, scaledPeakOpacity(peak, scale));
-        r += real(peak.color[0]) * opacity;
-        g += real(peak.color[1]) * opacity;
-        b += real(peak.color[2]) * opacity;
+    HWY_INLINE void addIsosurface(const TransferIsosurface& isosurface, mask crossed) {
+        const real opacity = keep(crossed, scaledIsosurfaceOpacity(isosurface, scale));
+        r += real(isosurface.color[0]) * opacity;
+        g += real(isosurface.color[1]) * opacity;
+        b += real(isosurface.color[2]) * opacity;
         otherDepth = otherDepth + opacity;
     }
     HWY_INLINE void addDepth(real depth) { smoothDepth = smoothDepth + depth; }
@@ -107,30 +107,32 @@ struct CellContributions {
 };
 
 /// ∫ c τ, ∫ τ, and the isosurfaces that are crossed.
-struct ContributionSink {
+struct ContributionAccumulator {
     static constexpr bool depthOnly = false, hides = false;
     real r, g, b, smoothDepth;
-    CellContributions peaks;
+    CellContributions isosurfaces;
 
-    HWY_INLINE ContributionSink() { r = g = b = smoothDepth = peaks.r = peaks.g = peaks.b = peaks.count = real(0.0f); }
+    HWY_INLINE ContributionAccumulator() {
+        r = g = b = smoothDepth = isosurfaces.r = isosurfaces.g = isosurfaces.b = isosurfaces.count = real(0.0f);
+    }
     HWY_INLINE void add(const TransferPiece& piece, real depth, real weighted) {
         r += real(piece.color[0]) * depth + real(piece.colorSlope[0]) * weighted;
         g += real(piece.color[1]) * depth + real(piece.colorSlope[1]) * weighted;
         b += real(piece.color[2]) * depth + real(piece.colorSlope[2]) * weighted;
     }
-    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) {
-        peaks.r += keep(crossed, real(peak.color[0]));
-        peaks.g += keep(crossed, real(peak.color[1]));
-        peaks.b += keep(crossed, real(peak.color[2]));
-        peaks.count += keep(crossed, real(1.0f));
+    HWY_INLINE void addIsosurface(const TransferIsosurface& isosurface, mask crossed) {
+        isosurfaces.r += keep(crossed, real(isosurface.color[0]));
+        isosurfaces.g += keep(crossed, real(isosurface.color[1]));
+        isosurfaces.b += keep(crossed, real(isosurface.color[2]));
+        isosurfaces.count += keep(crossed, real(1.0f));
     }
     HWY_INLINE void addDepth(real depth) { smoothDepth = smoothDepth + depth; }
 
     HWY_INLINE CellContributions contributions() const {
         const mask shows = smoothDepth > real(0.0f);
         const real perDepth = keep(shows, real(1.0f) / select(shows, smoothDepth, real(1.0f)));
-        return {r * perDepth + peaks.r, g * perDepth + peaks.g, b * perDepth + peaks.b,
-                keep(shows, real(1.0f)) + peaks.count};
+        return {r * perDepth + isosurfaces.r, g * perDepth + isosurfaces.g, b * perDepth + isosurfaces.b,
+                keep(shows, real(1.0f)) + isosurfaces.count};
     }
 };
 
@@ -188,11 +190,11 @@ struct ClassifiedSegments {
     }
 
     /// Either integral with scaled extinction is the standard one over another path.
-    template <class Sink>
-    HWY_INLINE void integrate(real factor, Sink& sink) const {
+    template <class Accumulator>
+    HWY_INLINE void integrate(real factor, Accumulator& accumulator) const {
         Segments scaled = segments;
         scaled.length = keep(segments.live, factor * path());
-        addAlong<false>(*frame.transfer, first, last, scaled, sink);
+        addAlong<false>(*frame.transfer, first, last, scaled, accumulator);
     }
 
     HWY_INLINE Sample sample() const {
@@ -206,45 +208,45 @@ struct ClassifiedSegments {
             const mask shows = both(segments.live, taken.extinction * path() > real(0.0f));
             return {keep(shows, taken.r), keep(shows, taken.g), keep(shows, taken.b), keep(shows, real(1.0f))};
         }
-        ContributionSink sink;
-        integrate(real(1.0f), sink);
-        return sink.contributions();
+        ContributionAccumulator accumulator;
+        integrate(real(1.0f), accumulator);
+        return accumulator.contributions();
     }
 
     /// What hides what lies behind it, before silhouettes and light.
-    HWY_INLINE void gather(ScaledSegmentSink& sink) const {
-        sink.scale = scale;
+    HWY_INLINE void gather(ScaledSegmentAccumulator& accumulator) const {
+        accumulator.scale = scale;
         if (HWY_UNLIKELY(frame.contributions.perCell)) {
             const CellContributions sum = contributions();
             const real each = real(1.0f) / max(sum.count, real(1.0f));
-            return sink.setMean(each * sum.r, each * sum.g, each * sum.b, real(0.0f), sum.count * scale);
+            return accumulator.setMean(each * sum.r, each * sum.g, each * sum.b, real(0.0f), sum.count * scale);
         }
-        if (frame.classification == Classification::Preintegrated) return integrate(scale, sink);
+        if (frame.classification == Classification::Preintegrated) return integrate(scale, accumulator);
         const Sample taken = sample();
-        sink.setMean(taken.r, taken.g, taken.b, taken.extinction * (scale * path()), real(0.0f));
+        accumulator.setMean(taken.r, taken.g, taken.b, taken.extinction * (scale * path()), real(0.0f));
     }
 
     /// The same where nothing is hidden.
-    HWY_INLINE EmissionSink emission() const {
-        EmissionSink sink;
-        sink.r = sink.g = sink.b = sink.smoothDepth = sink.otherDepth = real(0.0f);
-        sink.scale = scale;
+    HWY_INLINE EmissionAccumulator emission() const {
+        EmissionAccumulator accumulator;
+        accumulator.r = accumulator.g = accumulator.b = accumulator.smoothDepth = accumulator.otherDepth = real(0.0f);
+        accumulator.scale = scale;
         if (HWY_UNLIKELY(frame.contributions.perCell)) {
             const CellContributions sum = contributions();
-            sink.r = sum.r * scale;
-            sink.g = sum.g * scale;
-            sink.b = sum.b * scale;
-            sink.otherDepth = sum.count * scale;
+            accumulator.r = sum.r * scale;
+            accumulator.g = sum.g * scale;
+            accumulator.b = sum.b * scale;
+            accumulator.otherDepth = sum.count * scale;
         } else if (frame.classification == Classification::Preintegrated) {
-            integrate(scale, sink);
+            integrate(scale, accumulator);
         } else {
             const Sample taken = sample();
-            sink.smoothDepth = taken.extinction * (scale * path());
-            sink.r = taken.r * sink.smoothDepth;
-            sink.g = taken.g * sink.smoothDepth;
-            sink.b = taken.b * sink.smoothDepth;
+            accumulator.smoothDepth = taken.extinction * (scale * path());
+            accumulator.r = taken.r * accumulator.smoothDepth;
+            accumulator.g = taken.g * accumulator.smoothDepth;
+            accumulator.b = taken.b * accumulator.smoothDepth;
         }
-        return sink;
+        return accumulator;
     }
 };
 
@@ -269,22 +271,24 @@ HWY_INLINE void meetPiece(const TransferPiece& piece, const Segments& segments, 
 HWY_INLINE FirstShown firstShown(const CpuTransfer& transfer, std::size_t first, std::size_t last,
                                  const Segments& segments) {
     const auto& pieces = transfer.pieces();
-    const auto& peaks = transfer.peaks();
+    const auto& isosurfaces = transfer.isosurfaces();
     const mask rising = both(segments.back > segments.front, segments.live),
                falling = both(segments.back < segments.front, segments.live);
-    auto meetPeak = [&](const TransferPeak& peak, mask lanes, FirstShown& shown)
-                        HWY_ATTR { shown.meet(both(lanes, crossed(peak, segments)), real(peak.value)); };
+    auto meetIsosurface = [&](const TransferIsosurface& isosurface, mask lanes, FirstShown& shown) HWY_ATTR {
+        shown.meet(both(lanes, crossed(isosurface, segments)), real(isosurface.value));
+    };
     FirstShown result{segments.front, segments.front < segments.front};
     for (std::size_t k = first; k <= last && !none(rising); ++k) {
         meetPiece(pieces[k], segments, rising, result);
         if (k == last) break;
-        for (std::uint32_t i = pieces[k].peakBegin; i < pieces[k].peakEnd; ++i) meetPeak(peaks[i], rising, result);
+        for (std::uint32_t i = pieces[k].isosurfaceBegin; i < pieces[k].isosurfaceEnd; ++i)
+            meetIsosurface(isosurfaces[i], rising, result);
     }
     for (std::size_t k = last + 1; k-- > first && !none(falling);) {
         meetPiece(pieces[k], segments, falling, result);
         if (k == first) break;
-        for (std::uint32_t i = pieces[k - 1].peakEnd; i-- > pieces[k - 1].peakBegin;)
-            meetPeak(peaks[i], falling, result);
+        for (std::uint32_t i = pieces[k - 1].isosurfaceEnd; i-- > pieces[k - 1].isosurfaceBegin;)
+            meetIsosurface(isosurfaces[i], falling, result);
     }
     // constant along the ray: about the origin of a piece extinction is a sum of what is not negative, and 0 exactly
     const mask constant = both(segments.back == segments.front, segments.live);

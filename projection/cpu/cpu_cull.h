@@ -16,8 +16,8 @@
 namespace tetralux::projection {
 
 /// A cell that may cover pixels, and the tiles of its rectangle.
-struct [[gnu::packed]] Survivor {  // 20 bytes instead of 24: one for every cell that is seen
-    double key;                    ///< larger is nearer
+struct [[gnu::packed]] VisibleCell {  // 20 bytes instead of 24: one for every cell that is seen
+    double key;                       ///< larger is nearer
     mesh::CellIndex cell;
     std::uint16_t x0, y0, x1, y1;  ///< tiles, both ends included
 };
@@ -41,9 +41,9 @@ struct CullTask {
     const std::uint64_t* shown;      ///< one bit per cell, 1 where it shows; nullptr: all do
     std::size_t begin, end;          ///< of `visible`, or of all cells; with `shown` begin is a multiple of 64
     KeySource keys;
-    Survivor* survivors;  ///< room for end − begin
+    VisibleCell* visibleCells;  ///< room for end − begin
     int tilesX;
-    std::uint32_t* tileCounts;  ///< one more for each tile that a survivor meets
+    std::uint32_t* tileCounts;  ///< one more for each tile that a visible cell meets
 };
 
 /// Cells that can be seen, in order; their number.

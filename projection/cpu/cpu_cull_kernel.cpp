@@ -145,10 +145,10 @@ private:
         counts_.nearest = std::max(counts_.nearest, key);
         counts_.farthest = std::min(counts_.farthest, key);
         auto tile = [](int pixel) HWY_ATTR { return static_cast<std::uint16_t>(pixel / cpuTileSize); };
-        const Survivor survivor{key, cell, tile(x0), tile(y0), tile(x1), tile(y1)};
-        for (int y = survivor.y0; y <= survivor.y1; ++y)
-            for (int x = survivor.x0; x <= survivor.x1; ++x) ++task_.tileCounts[y * task_.tilesX + x];
-        task_.survivors[kept_++] = survivor;
+        const VisibleCell visibleCell{key, cell, tile(x0), tile(y0), tile(x1), tile(y1)};
+        for (int y = visibleCell.y0; y <= visibleCell.y1; ++y)
+            for (int x = visibleCell.x0; x <= visibleCell.x1; ++x) ++task_.tileCounts[y * task_.tilesX + x];
+        task_.visibleCells[kept_++] = visibleCell;
     }
 
     const TileFrame& frame_;

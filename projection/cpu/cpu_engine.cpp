@@ -18,13 +18,13 @@
 #include <tbb/task_arena.h>
 #include <glm/geometric.hpp>
 
-#include <projection/cells/ray_nearness.h>
+#include <projection/cells/ray_inverse_depth.h>
 #include <projection/core/transfer_support.h>
 #include <projection/cpu/cpu_bins.h>
 #include <projection/cpu/cpu_cull.h>
 #include <projection/cpu/cpu_limits.h>
 #include <projection/cpu/cpu_order.h>
-#include <projection/cpu/cpu_quick_look.h>
+#include <projection/cpu/cpu_quick_variant.h>
 #include <projection/cpu/cpu_tile.h>
 #include <projection/light/vertex_samples.h>
 
@@ -38,7 +38,7 @@ double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// Rounding of nearness that the order check allows for, relative to the mesh's extent.
+/// Rounding of inverse depth that the order check allows for, relative to the mesh's extent.
 constexpr double orderRounding = 1e-6;
 
 /// Nodes that a line meets within this are walked along as one piece (CpuTransfer).
@@ -57,9 +57,9 @@ constexpr std::size_t mostPlaces = std::size_t{1} << 20, leastChunk = 4096, usua
 struct CpuFrameMemory {
     std::optional<CpuOrder> order;  // of the last frame
     std::vector<CameraPoint> points;
-    std::unique_ptr<Survivor[]> survivors;  // room for all candidates; memory is taken where some survive
-    std::size_t survivorRoom = 0;
-    std::vector<SurvivorChunk> chunks;
+    std::unique_ptr<VisibleCell[]> visibleCells;  // room for all candidates; memory is taken where some survive
+    std::size_t visibleCellRoom = 0;
+    std::vector<VisibleCellChunk> chunks;
     TileBins bins;
     std::vector<std::uint32_t> tilesByWork;
 };
@@ -94,13 +94,13 @@ public:
             keptCamera_ = camera;
         }
         setLimits(view);
-        Image image(camera.width, camera.height);  // only now: it takes the place of the survivors
+        Image image(camera.width, camera.height);  // only now: it takes the place of the visible cells
         draw(view.control, image, report);
         report.cellsSkipped = skipped_;
         report.cellsDrawn = cellsDrawn_;
         report.orderMethod = order_.method;
         report.orderCycles = order_.cyclicCells;
-        report.orderUpkeep = order_.method == "none" ? "none" : order_.upkeep;
+        report.incrementalSort = order_.method == "none" ? "none" : order_.incrementalSort;
         report.failingFaces = order_.failingFaces;
         report.frameMilliseconds = millisecondsSince(start);
         return image;
@@ -114,11 +114,11 @@ public:
 
 private:
     void prepare();
-    void findVisibleCells();
+    void findShownCells();
     TileKind kind() const;
     /// Whether shading asks for silhouettes at most, which the quick kernel of optical depths knows.
     bool quickDepth() const {
-        return skips_.quickLooks && !samplesVertices(scene_) && silhouettesAtMost(scene_.settings.shading);
+        return skips_.quickVariants && !samplesVertices(scene_) && silhouettesAtMost(scene_.settings.shading);
     }
     bool ordered() const { return !orderFree(scene_.settings.mode) && frame_.kind != TileKind::Absorption; }
     void makeLists(const View& view, FrameReport& report);
@@ -139,7 +139,7 @@ private:
 
     // of the scene
     std::vector<float> scalars_;
-    std::vector<mesh::CellIndex> visible_;  // the cells that show, where far from all do; else empty, and
+    std::vector<mesh::CellIndex> shownCells_;  // the cells that show, where far from all do; else empty, and
     std::vector<std::uint64_t> shown_;  // one bit per cell, empty where all show: an eighth of a byte instead of four
     std::uint64_t invisible_ = 0;
     std::optional<CpuOrder> orderKeys_;
@@ -150,7 +150,7 @@ private:
     CameraFrame cameraFrame_;
     TileFrame frame_{};
     TileLimits limits_;
-    bool limited_ = false;  // this frame takes drawLimitedTile
+    bool clipped_ = false;  // this frame takes drawClippedTile
     int tilesX_ = 0, tilesY_ = 0;
     CpuFrameOrder order_;
     std::uint64_t cellsDrawn_ = 0;
@@ -179,7 +179,7 @@ TileKind CpuEngine::kind() const {
         default:
             break;
     }
-    // other classifications show no peaks, so that theirs do not count for one colour
+    // other classifications show no isosurfaces, so that theirs do not count for one colour
     const bool plain = scene_.settings.classification == Classification::Preintegrated;
     const bool oneColor =
         skips_.orderFree && plain && transfer_.constantColor() && !scene_.settings.contributions.perCell;
@@ -222,7 +222,7 @@ void CpuEngine::prepare() {
     frame_.emissionOnly = scene_.settings.mode == Mode::Emission;
     const bool everyScalarCounts =
         frame_.kind == TileKind::Mip || frame_.kind == TileKind::Minimum || frame_.kind == TileKind::Average;
-    if (skips_.invisibleCells && scene_.settings.skipInvisible && !everyScalarCounts) findVisibleCells();
+    if (skips_.invisibleCells && scene_.settings.skipInvisible && !everyScalarCounts) findShownCells();
     prepareMilliseconds_["cells"] = millisecondsSince(start);
     if (!frame_.ordered || !skips_.sort) return;
     const auto orderStart = Clock::now();
@@ -233,7 +233,7 @@ void CpuEngine::prepare() {
 }
 
 /// Which cells the transfer function shows: asked once, since it depends on no camera.
-void CpuEngine::findVisibleCells() {
+void CpuEngine::findShownCells() {
     const auto& function = scene_.transferFunction;
     const auto support = extinctionSupport(function);
     const auto integral = integralOf(scene_.settings.mode);
@@ -252,9 +252,9 @@ void CpuEngine::findVisibleCells() {
         for (std::size_t i = 0; i < shows.size(); ++i) shown_[i / 64] |= std::uint64_t{shows[i]} << i % 64;
         return;
     }
-    visible_.reserve(count);
+    shownCells_.reserve(count);
     for (std::size_t i = 0; i < shows.size(); ++i)
-        if (shows[i]) visible_.push_back(static_cast<mesh::CellIndex>(i));
+        if (shows[i]) shownCells_.push_back(static_cast<mesh::CellIndex>(i));
 }
 
 void CpuEngine::setFrame() {
@@ -278,10 +278,10 @@ void CpuEngine::setFrame() {
                                  static_cast<float>(-glm::dot(towards, frame.up)),
                                  static_cast<float>(glm::dot(towards, frame.forward))});
     }
-    if (skips_.quickLooks) frame_.look = quickLook(shading, frame_);
+    if (skips_.quickVariants) frame_.variant = quickVariant(shading, frame_);
 }
 
-/// The pixel maps as nearness along rays, and whether the frame needs the kernel that honours them.
+/// The pixel maps as inverse depth along rays, and whether the frame needs the kernel that honours them.
 void CpuEngine::setLimits(const View& view) {
     limits_ = {};
     const bool mapped = view.maps != nullptr && view.maps->changeVolume();
@@ -291,7 +291,7 @@ void CpuEngine::setLimits(const View& view) {
     const bool quickKind = frame_.kind == TileKind::Composite || frame_.kind == TileKind::Shaded ||
                            frame_.kind == TileKind::FirstHit ||
                            (frame_.kind == TileKind::Absorption && (!shading.needsGradient() || quickDepth()));
-    limited_ =
+    clipped_ =
         mapped || !quickKind || frame_.classification != Classification::Preintegrated || frame_.contributions.perCell;
     const DepthRange range = depthRange(mesh_.bounds, view.camera);
     frame_.greyOfReference = range.greyAt(frame_.depthReference * units_.length);
@@ -331,11 +331,11 @@ void CpuEngine::makeLists(const View& view, FrameReport& report) {
         counts = cull(view.control);
     }
     finish("cull");
-    memory_->bins.fill(memory_->survivors.get(), memory_->chunks, counts.nearest, counts.farthest, order_.places,
+    memory_->bins.fill(memory_->visibleCells.get(), memory_->chunks, counts.nearest, counts.farthest, order_.places,
                        view.control);
-    if (memory_->survivorRoom * sizeof(Survivor) <= mostRecycled) {
-        memory_->survivors.reset();
-        memory_->survivorRoom = 0;
+    if (memory_->visibleCellRoom * sizeof(VisibleCell) <= mostRecycled) {
+        memory_->visibleCells.reset();
+        memory_->visibleCellRoom = 0;
     }
     sortTilesByWork();
     finish("bin");
@@ -348,17 +348,17 @@ void CpuEngine::makeLists(const View& view, FrameReport& report) {
 
 CullCounts CpuEngine::cull(const FrameControl* control) {
     const bool listed = invisible_ > 0 && shown_.empty();
-    const std::size_t candidates = listed ? visible_.size() : mesh_.cells.size();
+    const std::size_t candidates = listed ? shownCells_.size() : mesh_.cells.size();
     const std::size_t tiles = static_cast<std::size_t>(tilesX_) * static_cast<std::size_t>(tilesY_);
     const std::size_t wanted =
         std::max({leastChunk, std::min(usualChunk, candidates / 64), candidates * tiles / mostPlaces + 1});
     const std::size_t chunkSize = (wanted + 63) / 64 * 64;  // whole words of shown_
     const std::size_t chunkCount = (candidates + chunkSize - 1) / chunkSize;
-    if (memory_->survivorRoom < candidates) {
+    if (memory_->visibleCellRoom < candidates) {
         // no smaller than the picture, so that malloc gives the picture the same pages (makeLists lets go of them)
         const std::size_t pictureBytes = sizeof(glm::vec4) * tiles * cpuTileSize * cpuTileSize;
-        memory_->survivorRoom = std::max(candidates, pictureBytes / sizeof(Survivor) + 1);
-        memory_->survivors = std::make_unique_for_overwrite<Survivor[]>(memory_->survivorRoom);
+        memory_->visibleCellRoom = std::max(candidates, pictureBytes / sizeof(VisibleCell) + 1);
+        memory_->visibleCells = std::make_unique_for_overwrite<VisibleCell[]>(memory_->visibleCellRoom);
     }
     memory_->chunks.resize(chunkCount);
     memory_->bins.reset(chunkCount, tilesX_, tilesY_);
@@ -366,12 +366,12 @@ CullCounts CpuEngine::cull(const FrameControl* control) {
     tbb::parallel_for(std::size_t{0}, chunkCount, [&](std::size_t c) {
         checkStop(control);
         const std::size_t begin = c * chunkSize, end = std::min(candidates, begin + chunkSize);
-        const CullTask task{listed ? visible_.data() : nullptr,
+        const CullTask task{listed ? shownCells_.data() : nullptr,
                             shown_.empty() ? nullptr : shown_.data(),
                             begin,
                             end,
                             order_.keys,
-                            memory_->survivors.get() + begin,
+                            memory_->visibleCells.get() + begin,
                             tilesX_,
                             memory_->bins.counts(c)};
         memory_->chunks[c] = {begin, cullCells(frame_, task, counts[c])};
@@ -419,25 +419,25 @@ void CpuEngine::draw(const FrameControl* control, Image& image, FrameReport& rep
                     tellProgress(control, static_cast<double>(i) / static_cast<double>(memory_->tilesByWork.size()));
                 const std::uint32_t tile = memory_->tilesByWork[i];
                 const auto columns = static_cast<std::uint32_t>(tilesX_);
-                (limited_ ? drawLimitedTile : drawTile)(frame_, static_cast<int>(tile % columns) * cpuTileSize,
+                (clipped_ ? drawClippedTile : drawTile)(frame_, static_cast<int>(tile % columns) * cpuTileSize,
                                                         static_cast<int>(tile / columns) * cpuTileSize,
                                                         memory_->bins.tile(tile), image, results[tile]);
             }
         },
         tbb::simple_partitioner());
-    std::vector<std::uint32_t> doubtfulPixels = order_.doubtfulPixels;
+    std::vector<std::uint32_t> uncertainPixels = order_.uncertainPixels;
     std::uint64_t cellsSetUp = 0;
     for (const TileResult& result : results) {
         report.fragments += result.fragments;
         cellsSetUp += result.cellsSetUp;
         report.tilesRetired += result.retired ? 1 : 0;
-        doubtfulPixels.insert(doubtfulPixels.end(), result.doubtfulPixels.begin(), result.doubtfulPixels.end());
+        uncertainPixels.insert(uncertainPixels.end(), result.uncertainPixels.begin(), result.uncertainPixels.end());
     }
     report.tileEntries = memory_->bins.entryCount();
     report.tileEntriesSaved = report.tileEntries - cellsSetUp;
-    std::sort(doubtfulPixels.begin(), doubtfulPixels.end());
-    doubtfulPixels.erase(std::unique(doubtfulPixels.begin(), doubtfulPixels.end()), doubtfulPixels.end());
-    report.doubtfulPixels = std::move(doubtfulPixels);
+    std::sort(uncertainPixels.begin(), uncertainPixels.end());
+    uncertainPixels.erase(std::unique(uncertainPixels.begin(), uncertainPixels.end()), uncertainPixels.end());
+    report.uncertainPixels = std::move(uncertainPixels);
     report.stageMilliseconds["draw"] += millisecondsSince(start);
 }
 

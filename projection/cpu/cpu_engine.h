@@ -22,9 +22,9 @@ struct CpuSkips {
     bool invisibleCells = true;    ///< cells that the transfer function hides are not looked at
     bool earlyTermination = true;  ///< opaque pixels and tiles are left alone
     bool orderFree = true;         ///< no sort where order does not matter
-    bool quickLooks = true;        ///< silhouettes and plain light by kernels made for just these
+    bool quickVariants = true;     ///< silhouettes and plain light by kernels made for just these
     bool keepFrame = true;         ///< lists are kept while the camera stays
-    bool sort = true;              ///< off: cells in the mesh's order, which must show as doubtful pixels
+    bool sort = true;              ///< off: cells in the mesh's order, which must show as uncertain pixels
 };
 std::unique_ptr<Engine> makeCpuEngineWith(const Scene& scene, const CpuSkips& skips);
 

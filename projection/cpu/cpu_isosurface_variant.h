@@ -16,11 +16,11 @@
 #include <algorithm>
 #include <cmath>
 
-#if defined(TETRALUX_CPU_PEAK_LOOK_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef TETRALUX_CPU_PEAK_LOOK_H
-#undef TETRALUX_CPU_PEAK_LOOK_H
+#if defined(TETRALUX_CPU_ISOSURFACE_VARIANT_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TETRALUX_CPU_ISOSURFACE_VARIANT_H
+#undef TETRALUX_CPU_ISOSURFACE_VARIANT_H
 #else
-#define TETRALUX_CPU_PEAK_LOOK_H
+#define TETRALUX_CPU_ISOSURFACE_VARIANT_H
 #endif
 
 HWY_BEFORE_NAMESPACE();
@@ -42,27 +42,27 @@ HWY_INLINE real fadeOf(real depth) {
 /// What a block of pixels need not ask about its cell, with silhouettes.
 enum class CellShows {
     Anything,
-    NarrowPeak,  ///< one isosurface and nothing else, and the polynomial holds
-    WidePeak,    ///< the same where it does not
-    VeiledPeak   ///< one isosurface and the pieces of the transfer function beside it, scale-invariant
+    NarrowIsosurface,   ///< one isosurface and nothing else, and the polynomial holds
+    WideIsosurface,     ///< the same where it does not
+    IsosurfaceInMedium  ///< one isosurface and the pieces of the transfer function beside it, scale-invariant
 };
 
 /// Of the cells of one batch: what each shows, and the polynomials.
-struct PeakLooks {
+struct PreparedIsosurfaces {
     static constexpr std::size_t room = std::max(CellBatch::capacity, laneCount());
     static constexpr float mostSpread = 0.048f;  // and what products of spreads add
 
     std::size_t first[CellBatch::capacity],
-        last[CellBatch::capacity];                  ///< pieces of the transfer function
-    const TransferPeak* peak[CellBatch::capacity];  ///< the only one; nullptr: none, or more
-    bool veiled[CellBatch::capacity];               ///< there is more to see than the peak
+        last[CellBatch::capacity];                              ///< pieces of the transfer function
+    const TransferIsosurface* isosurface[CellBatch::capacity];  ///< the only one; nullptr: none, or more
+    bool inMedium[CellBatch::capacity];                         ///< there is more to see than the isosurface
     /// The largest |ε|, z₀, and Σ power[i]·(z − z₀)^i. The polynomial does not hold where spread is not below
     /// mostSpread.
     alignas(64) float spread[room], centre[room], power[5][room];
 
     bool narrow(std::size_t j) const { return spread[j] < mostSpread; }
 
-    const TransferPeak* onlyPeak(std::size_t j) const { return veiled[j] ? nullptr : peak[j]; }
+    const TransferIsosurface* onlyIsosurface(std::size_t j) const { return inMedium[j] ? nullptr : isosurface[j]; }
 
     /// Of pixels of cell j: scalarFall, and one over the ray per depth.
     HWY_INLINE real opacity(std::size_t j, real fall, real inverse) const {
@@ -82,14 +82,14 @@ using CellTag = hn::CappedTag<float, CellBatch::capacity>;
 
 /// What the polynomials follow from, one lane per cell of a batch: scalarFall amid the cell's pixels, and by how much
 /// it differs from that over them at most.
-struct PeakView {
+struct IsosurfaceView {
     hn::Vec<CellTag> fall, spread;
 };
 
-HWY_INLINE PeakView peakView(const CellBatch& batch, std::size_t j, bool orthographic) {
+HWY_INLINE IsosurfaceView isosurfaceView(const CellBatch& batch, std::size_t j, bool orthographic) {
     const CellTag tag;
-    const auto perRho = hn::LoadU(tag, batch.scalarPerRho + j);
-    if (orthographic) return {perRho, hn::Zero(tag)};
+    const auto perInverseDepth = hn::LoadU(tag, batch.scalarPerInverseDepth + j);
+    if (orthographic) return {perInverseDepth, hn::Zero(tag)};
     const hn::RebindToSigned<CellTag> whole;
     hn::Vec<decltype(whole)> beginX, beginY, endX, endY;
     hn::LoadInterleaved2(whole, &batch.begin[j][0], beginX, beginY);
@@ -103,7 +103,7 @@ HWY_INLINE PeakView peakView(const CellBatch& batch, std::size_t j, bool orthogr
     const auto perX = hn::LoadU(tag, batch.scalarPerX + j), perY = hn::LoadU(tag, batch.scalarPerY + j);
     const auto across =
         hn::MulAdd(perX, middle(batch.offsetX, beginX, endX), hn::Mul(perY, middle(batch.offsetY, beginY, endY)));
-    return {hn::Sub(perRho, across),
+    return {hn::Sub(perInverseDepth, across),
             hn::MulAdd(hn::Abs(perX), extent(beginX, endX), hn::Mul(hn::Abs(perY), extent(beginY, endY)))};
 }
 
@@ -118,27 +118,27 @@ HWY_INLINE real pixelLanes(Lanes cells) {
 
 /// The polynomials of a batch. `depth`: D of each cell's isosurface.
 HWY_INLINE void setPolynomials(const CellBatch& batch, const float* depth, const TileRays& rays, bool orthographic,
-                               PeakLooks& looks) {
+                               PreparedIsosurfaces& prepared) {
     const CellTag tag;
     const real one(1.0f);
     for (std::size_t j = 0; j < CellBatch::capacity; j += hn::Lanes(tag)) {
-        const PeakView view = peakView(batch, j, orthographic);
+        const IsosurfaceView view = isosurfaceView(batch, j, orthographic);
         const real fall = pixelLanes(view.fall), perFall = one / fall, perCentre = perFall * real(1.0f / rays.inverse);
         const real steepness =
             abs(pixelLanes(hn::LoadU(tag, batch.scale + j))) * pixelLanes(hn::LoadU(tag, batch.gradient + j));
         // the powers of 1/fall are to stay within float: gradients may be rounding's
         storeAt(select(abs(fall) < real(1e-7f), one, abs(perFall) * pixelLanes(view.spread) + real(rays.spread)),
-                looks.spread + j);
-        storeAt(fall * real(rays.inverse), looks.centre + j);
+                prepared.spread + j);
+        storeAt(fall * real(rays.inverse), prepared.centre + j);
         const real q = min(abs(perCentre) * steepness * pixelLanes(hn::LoadU(tag, depth + j)), real(80.0f)),
                    fade = fadeOf(q);
         const real terms[4] = {q, q * (real(0.5f) * q - one), q * (q * (real(1.0f / 6.0f) * q - one) + one),
                                q * (q * (q * (real(1.0f / 24.0f) * q - real(0.5f)) + real(1.5f)) - one)};
-        storeAt(one - fade, looks.power[0] + j);
+        storeAt(one - fade, prepared.power[0] + j);
         real scale = -fade;
         for (std::size_t i = 0; i < 4; ++i) {
             scale = scale * perCentre;
-            storeAt(scale * terms[i], looks.power[i + 1] + j);
+            storeAt(scale * terms[i], prepared.power[i + 1] + j);
         }
     }
 }
@@ -147,10 +147,10 @@ HWY_INLINE void setPolynomials(const CellBatch& batch, const float* depth, const
 constexpr float scalarRounding = 2e-6f;
 
 /// The pieces of the transfer function that the scalars of cell j lie in.
-template <bool Peaks>
+template <bool Isosurfaces>
 HWY_INLINE void findPieces(const CpuTransfer& transfer, const CellBatch& batch, std::size_t j, std::size_t& first,
                            std::size_t& last) {
-    if constexpr (Peaks) {
+    if constexpr (Isosurfaces) {
         first = transfer.pieceFromAbove(batch.scalarLow[j] - scalarRounding);
         last = transfer.pieceFromAbove(batch.scalarHigh[j] + scalarRounding);
     } else {
@@ -161,22 +161,23 @@ HWY_INLINE void findPieces(const CpuTransfer& transfer, const CellBatch& batch, 
 
 /// The pieces that the batch's cells meet, their isosurface where there is just one, and its polynomial where there are
 /// silhouettes.
-inline HWY_NOINLINE void lookAtPeaks(const TileFrame& frame, const CellBatch& batch, std::size_t cells,
-                                     const TileRays& rays, PeakLooks& looks) {
+inline HWY_NOINLINE void prepareIsosurfaces(const TileFrame& frame, const CellBatch& batch, std::size_t cells,
+                                            const TileRays& rays, PreparedIsosurfaces& prepared) {
     alignas(64) float depth[CellBatch::capacity] = {};
     bool any = false;
     for (std::size_t j = 0; j < cells; ++j) {
-        findPieces<true>(*frame.transfer, batch, j, looks.first[j], looks.last[j]);
-        const TransferPiece &a = frame.transfer->pieces()[looks.first[j]], &b = frame.transfer->pieces()[looks.last[j]];
-        looks.peak[j] = nullptr;
-        if (looks.last[j] != looks.first[j] + 1 || a.peakEnd != a.peakBegin + 1) continue;
-        looks.peak[j] = &frame.transfer->peaks()[a.peakBegin];
-        looks.veiled[j] = a.visible || b.visible;
-        depth[j] = looks.peak[j]->depth;
+        findPieces<true>(*frame.transfer, batch, j, prepared.first[j], prepared.last[j]);
+        const TransferPiece &a = frame.transfer->pieces()[prepared.first[j]],
+                            &b = frame.transfer->pieces()[prepared.last[j]];
+        prepared.isosurface[j] = nullptr;
+        if (prepared.last[j] != prepared.first[j] + 1 || a.isosurfaceEnd != a.isosurfaceBegin + 1) continue;
+        prepared.isosurface[j] = &frame.transfer->isosurfaces()[a.isosurfaceBegin];
+        prepared.inMedium[j] = a.visible || b.visible;
+        depth[j] = prepared.isosurface[j]->depth;
         any = true;
     }
-    if (!any || !frame.look.silhouettes) return;
-    setPolynomials(batch, depth, rays, frame.orthographic, looks);
+    if (!any || !frame.variant.silhouettes) return;
+    setPolynomials(batch, depth, rays, frame.orthographic, prepared);
 }
 
 /// Fills the tile's inverse ray lengths.

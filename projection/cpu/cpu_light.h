@@ -22,12 +22,12 @@ namespace tetralux::projection::HWY_NAMESPACE {
 
 /// Where a block's segments run, as light needs it.
 struct SegmentMiddles {
-    real dx, dy;    ///< of the pixels from the cell's reference point
-    real weight;    ///< of the constant part: mean depth ratio (orthographic: 1)
-    real nearness;  ///< mean of depth ratio times rho (orthographic: mean rho)
+    real dx, dy;           ///< of the pixels from the cell's reference point
+    real weight;           ///< of the constant part: mean depth ratio (orthographic: 1)
+    real rayInverseDepth;  ///< mean of depth ratio times inverseDepth (orthographic: mean inverseDepth)
 };
 
-/// Of segments between two values of rho.
+/// Of segments between two values of inverseDepth.
 HWY_INLINE SegmentMiddles segmentMiddles(real dx, real dy, real in, real out, bool orthographic) {
     const real half(0.5f);
     if (orthographic) return {dx, dy, real(1.0f), half * (in + out)};
@@ -55,16 +55,16 @@ HWY_INLINE vec3 worldFromCamera(const TileFrame& frame, vec3 v) {
 }
 
 /// Barycentric coordinates of the segments' middles: λ_k is proportional to the distance from face k, and so to
-/// rho − rho_k times its value at the eye (cell_interval.glsl).
+/// inverseDepth − inverseDepth_k times its value at the eye (cell_interval.glsl).
 HWY_INLINE void middleCoordinates(const CellBatch& batch, std::size_t j, const SegmentMiddles& middles,
                                   real (&weights)[4]) {
     real sum(0.0f);
     for (std::size_t k = 0; k < 4; ++k) {
         const auto& plane = batch.plane[k];
-        const real rho =
-            planeRho(cell_real{plane[0][j]}, cell_real{plane[1][j]}, cell_real{plane[2][j]}, middles.dx, middles.dy);
-        weights[k] =
-            clamp(real(batch.eyeWeight[k][j]) * (middles.nearness - middles.weight * rho), real(0.0f), real(1.0f));
+        const real inverseDepth = planeInverseDepth(cell_real{plane[0][j]}, cell_real{plane[1][j]},
+                                                    cell_real{plane[2][j]}, middles.dx, middles.dy);
+        weights[k] = clamp(real(batch.eyeWeight[k][j]) * (middles.rayInverseDepth - middles.weight * inverseDepth),
+                           real(0.0f), real(1.0f));
         sum += weights[k];
     }
     const real inverse = real(1.0f) / max(sum, real(1e-30f));
@@ -122,12 +122,12 @@ HWY_INLINE real surfaceShadows(const TileFrame& frame, const CellBatch& batch, s
                                const SegmentToLight& segment, vec3 towards) {
     const float low = batch.scalarLow[j], high = batch.scalarHigh[j];
     real through(1.0f);
-    for (const TransferPeak& peak : frame.transfer->peaks()) {
-        if (!(low < peak.value && peak.value <= high)) continue;
+    for (const TransferIsosurface& isosurface : frame.transfer->isosurfaces()) {
+        if (!(low < isosurface.value && isosurface.value <= high)) continue;
         const vec3 normal(real(batch.normal[0][j]), real(batch.normal[1][j]), real(batch.normal[2][j]));
         const real rise = dot(worldFromCamera(frame, normal), towards);
-        through = through * surfaceShadow(real(peak.value), real(peak.opacity), segment.front, segment.back, real(low),
-                                          real(high), rise);
+        through = through * surfaceShadow(real(isosurface.value), real(isosurface.opacity), segment.front, segment.back,
+                                          real(low), real(high), rise);
     }
     return through;
 }

@@ -3,16 +3,16 @@
 
 #include <glm/geometric.hpp>
 
-#include <projection/cells/ray_nearness.h>
+#include <projection/cells/ray_inverse_depth.h>
 
 namespace tetralux::projection {
 
 TileLimits tileLimits(const PixelMaps& maps, const CameraFrame& camera, const TileFrame& frame,
                       const SceneUnits& units) {
-    NearnessMaps nearness = nearnessMaps(maps, camera, units, frame.depthReference);
-    TileLimits limits{std::move(nearness.nearest),
-                      std::move(nearness.farthest),
-                      std::move(nearness.cutLayerEnd),
+    InverseDepthMaps rayInverseDepth = inverseDepthMaps(maps, camera, units, frame.depthReference);
+    TileLimits limits{std::move(rayInverseDepth.nearest),
+                      std::move(rayInverseDepth.farthest),
+                      std::move(rayInverseDepth.cutLayerEnd),
                       maps.extinctionScale,
                       {}};
     limits.normal.reserve(maps.cutNormal.size());

@@ -6,7 +6,7 @@
 
 namespace tetralux::projection {
 
-/// Pixel maps in the terms of a frame's tiles: distances as nearness (TileFrame::depthReference), normals in the
+/// Pixel maps in the terms of a frame's tiles: distances as inverse depth (TileFrame::depthReference), normals in the
 /// camera's axes. `camera` is the frame's.
 TileLimits tileLimits(const PixelMaps& maps, const CameraFrame& camera, const TileFrame& frame,
                       const SceneUnits& units);

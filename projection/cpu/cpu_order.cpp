@@ -18,9 +18,9 @@ CpuFrameOrder CpuOrder::orderOf(const CellProjector& projector) {
         return order;
     }
     const VisibilityOrder& sorted = sorter_.sort(projector);
-    order.upkeep = sorted.upkeep;
+    order.incrementalSort = sorted.incrementalSort;
     order.cyclicCells = sorted.cyclicCells;
-    order.doubtfulPixels = sorted.doubtfulPixels;
+    order.uncertainPixels = sorted.uncertainPixels;
     order.places = sorted.places.data();
     return order;
 }

@@ -16,9 +16,9 @@ namespace tetralux::projection {
 /// What one frame's order is worth, and its keys.
 struct CpuFrameOrder {
     std::string method = "none";
-    std::string upkeep = "sorted";
+    std::string incrementalSort = "sorted";
     std::uint64_t failingFaces = 0, cyclicCells = 0;
-    std::vector<std::uint32_t> doubtfulPixels;
+    std::vector<std::uint32_t> uncertainPixels;
     // what these point to the CpuOrder keeps, until it is asked again
     KeySource keys;
     const std::uint32_t* places = nullptr;  ///< per cell, counted from the front, instead of keys

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Opacity and colour of a short segment on which colour and extinction are linear, by polynomials: no exponential, no division. One text for
-// C++ in double (tests against preint::linearPieceWeights) and for SIMD lanes; see preint/glsl_prelude.h for the common subset.
+// Opacity and colour of a short segment on which colour and extinction are linear, by polynomials: no exponential, no
+// division. One text for C++ in double (tests against preint::linearPieceWeights) and for SIMD lanes; see
+// preint/glsl_prelude.h for the common subset.
 //
-// With front and back depths d_f = τ_f·l and d_b = τ_b·l write D = (d_f + d_b)/2 for the optical depth and δ = (d_b − d_f)/2. Moreland & Angel's
-// weights (2004, thesis Equations 5.5–5.10) are C = c_f·W_f + c_b·W_b. In terms of the mean colour c = (c_f + c_b)/2 and the half
-// difference e = (c_b − c_f)/2,
+// With front and back depths d_f = τ_f·l and d_b = τ_b·l write D = (d_f + d_b)/2 for the optical depth and δ = (d_b −
+// d_f)/2. Moreland & Angel's weights (2004, thesis Equations 5.5–5.10) are C = c_f·W_f + c_b·W_b. In terms of the
+// mean colour c = (c_f + c_b)/2 and the half difference e = (c_b − c_f)/2,
 //
 //   C = c·α + e·V,   α = W_f + W_b = 1 − exp(−D),   V = W_b − W_f = 2Ψ − 1 − exp(−D),   Ψ = ∫₀¹ exp(−Dx + δx(1 − x)) dx.
 //
@@ -13,8 +14,9 @@
 //
 //   V = exp(−D/2)·[2K₁·(δ − D²/2) + K₂·δ² + K₃/3·δ³ + …],
 //
-// where the terms that cancel (K₀ − cosh(D/2) = −K₁·D²/2) have cancelled on paper: thin segments keep their relative precision. The functions of
-// D alone are polynomials fitted at Chebyshev nodes on [0, 1]. Largest errors for D ≤ 1, |δ| ≤ 1/2: α 3e-7·D², V 1.4e-5.
+// where the terms that cancel (K₀ − cosh(D/2) = −K₁·D²/2) have cancelled on paper: thin segments keep their relative
+// precision. The functions of D alone are polynomials fitted at Chebyshev nodes on [0, 1]. Largest errors for D ≤ 1,
+// |δ| ≤ 1/2: α 3e-7·D², V 1.4e-5.
 
 TETRALUX_GLSL_FUNCTION real pieceDepthLimit() { return real(1.0); }
 TETRALUX_GLSL_FUNCTION real pieceSlopeLimit() { return real(0.5); }
@@ -45,8 +47,9 @@ TETRALUX_GLSL_FUNCTION real pieceSkew(real depth, real halfStep) {
     return higher * (halfStep * halfStep) + a * first;
 }
 
-// V·D/α per unit of path, where silhouettes make the opacity another one: D and δ are `extinction` and `step` times the path. K_n(D) and the
-// factor D/α·exp(−D/2) = (D/2)/sinh(D/2) are even, which makes this cheaper than V, and nothing is divided. D ≤ 1, |δ| ≤ 1/2; V to 1.4e-5.
+// V·D/α per unit of path, where silhouettes make the opacity another one: D and δ are `extinction` and `step` times
+// the path. K_n(D) and the factor D/α·exp(−D/2) = (D/2)/sinh(D/2) are even, which makes this cheaper than V, and
+// nothing is divided. D ≤ 1, |δ| ≤ 1/2; V to 1.4e-5.
 TETRALUX_GLSL_FUNCTION real pieceLean(real extinction, real step, real depth, real halfStep) {
     real square = depth * depth;
     real a = real(0.000127452188) * square + real(-0.00555376143);
@@ -70,8 +73,8 @@ TETRALUX_GLSL_FUNCTION real finePieceSkew(real depth, real halfStep) {
     return b - real(0.5) * depth * b;
 }
 
-// Deep pieces: completing the square in Ψ with r = √|δ| gives, where the back is denser (error function) and where the front is (Dawson's
-// integral F),
+// Deep pieces: completing the square in Ψ with r = √|δ| gives, where the back is denser (error function) and where
+// the front is (Dawson's integral F),
 //
 //   Ψ = [G(d_f/2r) − exp(−D)·G(d_b/2r)]/r,   G(u) = √π/2·exp(u²)·erfc(u)   or   G = F.
 //
@@ -90,7 +93,8 @@ TETRALUX_GLSL_FUNCTION real scaledComplement(real u) {
     return p * t;
 }
 
-// F(u) = exp(−u²)·∫₀ᵘ exp(x²) dx, u ≥ 0: rational (after Lether 1997), relative error 1e-5; beyond 30 its asymptotic series.
+// F(u) = exp(−u²)·∫₀ᵘ exp(x²) dx, u ≥ 0: rational (after Lether 1997), relative error 1e-5; beyond 30 its asymptotic
+// series.
 TETRALUX_GLSL_FUNCTION real dawsonIntegral(real u) {
     real y = min(u * u, real(900.0));
     real p = real(0.0001789971) * y + real(0.0005064034);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <projection/cpu/cpu_quick_look.h>
+#include <projection/cpu/cpu_quick_variant.h>
 
 #include <cmath>
 
@@ -12,8 +12,8 @@ namespace {
 /// Largest whole exponent that is taken by squaring: rounding stays below 1e-4.
 constexpr double largestWholeExponent = 1024;
 
-/// Whether Look::Lamps knows all that lights and material ask for.
-bool lampsSuffice(const shading::ShadingSettings& settings) {
+/// Whether ShadingVariant::LocalLights knows all that lights and material ask for.
+bool localLightsSuffice(const shading::ShadingSettings& settings) {
     using shading::Reflectance;
     const shading::MaterialSide &front = settings.material.front, &back = settings.material.back;
     return (settings.reflectance == Reflectance::Phong || settings.reflectance == Reflectance::BlinnPhong) &&
@@ -23,17 +23,17 @@ bool lampsSuffice(const shading::ShadingSettings& settings) {
            front.exponent == back.exponent;
 }
 
-QuickLamp quickLamp(const FrameLight& light, const glm::vec3& specular, const TileFrame& frame) {
-    QuickLamp lamp;
-    lamp.kind = light.kind;
-    lamp.fades = light.kind != 0 && light.fade != glm::vec3(1, 0, 0);
+QuickLight quickLight(const FrameLight& light, const glm::vec3& specular, const TileFrame& frame) {
+    QuickLight localLight;
+    localLight.kind = light.kind;
+    localLight.fades = light.kind != 0 && light.fade != glm::vec3(1, 0, 0);
     for (int c = 0; c < 3; ++c) {
-        lamp.place[c] = glm::dot(light.place, frame.axes[static_cast<std::size_t>(c)]);
-        lamp.color[c] = light.color[c];
-        lamp.specular[c] = light.color[c] * specular[c];
-        lamp.fade[c] = light.fade[c];
+        localLight.place[c] = glm::dot(light.place, frame.axes[static_cast<std::size_t>(c)]);
+        localLight.color[c] = light.color[c];
+        localLight.specular[c] = light.color[c] * specular[c];
+        localLight.fade[c] = light.fade[c];
     }
-    return lamp;
+    return localLight;
 }
 
 }  // namespace
@@ -43,20 +43,23 @@ bool silhouettesAtMost(const shading::ShadingSettings& settings) {
            !settings.approximateSilhouette && !settings.depthColor;
 }
 
-QuickLook quickLook(const shading::ShadingSettings& shading, const TileFrame& frame) {
-    QuickLook quick;
+QuickVariant quickVariant(const shading::ShadingSettings& shading, const TileFrame& frame) {
+    QuickVariant quick;
     const bool plain = shading.plain();
     if (shading.smoothSilhouettes() || shading.gradientOpacity > 0 || shading.approximateSilhouette ||
-        shading.depthColor || frame.fullLights.size() > QuickLook::mostLights || (!plain && !lampsSuffice(shading)))
+        shading.depthColor || frame.fullLights.size() > QuickVariant::mostLights ||
+        (!plain && !localLightsSuffice(shading)))
         return quick;
-    quick.look = frame.fullLights.empty() ? Look::Silhouettes : plain ? Look::Lit : Look::Lamps;
+    quick.variant = frame.fullLights.empty() ? ShadingVariant::Silhouettes
+                    : plain                  ? ShadingVariant::Lit
+                                             : ShadingVariant::LocalLights;
     quick.silhouettes = shading.silhouette;
     quick.transmission = shading.transmission;
     quick.orthographic = frame.orthographic;
     for (const FrameLight& light : frame.fullLights) {
-        QuickLamp& lamp = quick.lamps[quick.lights++];
-        lamp = quickLamp(light, frame.lightModel.frontSpecular, frame);
-        quick.places = quick.places || lamp.kind == 1 || lamp.fades;
+        QuickLight& localLight = quick.localLights[quick.lights++];
+        localLight = quickLight(light, frame.lightModel.frontSpecular, frame);
+        quick.places = quick.places || localLight.kind == 1 || localLight.fades;
     }
     for (int c = 0; c < 3; ++c) quick.ambient[c] = frame.lightModel.ambient[c];
     quick.halfway = shading.reflectance == shading::Reflectance::BlinnPhong;

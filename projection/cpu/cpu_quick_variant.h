@@ -10,6 +10,6 @@ namespace tetralux::projection {
 bool silhouettesAtMost(const shading::ShadingSettings& settings);
 
 /// The kernel that draws such silhouettes and lights, and what it needs. `frame`: with its axes and lights.
-QuickLook quickLook(const shading::ShadingSettings& shading, const TileFrame& frame);
+QuickVariant quickVariant(const shading::ShadingSettings& shading, const TileFrame& frame);
 
 }  // namespace tetralux::projection

@@ -37,7 +37,7 @@ HWY_INLINE real exp(real a) {
 #undef TETRALUX_LANES
 
 /// Premultiplied colour and transmittance, gathered front to back.
-struct ColorSink {
+struct ColorAccumulator {
     static constexpr bool depthOnly = false, hides = true;
     real r, g, b, t;
 
@@ -49,11 +49,11 @@ struct ColorSink {
         b += real(piece.color[2]) * ta + real(piece.colorSlope[2]) * tq;
         t = t - ta;
     }
-    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) {
-        const real ta = keep(crossed, t * real(peak.opacity));
-        r += real(peak.color[0]) * ta;
-        g += real(peak.color[1]) * ta;
-        b += real(peak.color[2]) * ta;
+    HWY_INLINE void addIsosurface(const TransferIsosurface& isosurface, mask crossed) {
+        const real ta = keep(crossed, t * real(isosurface.opacity));
+        r += real(isosurface.color[0]) * ta;
+        g += real(isosurface.color[1]) * ta;
+        b += real(isosurface.color[2]) * ta;
         t = t - ta;
     }
     HWY_INLINE void addDepth(real) {}
@@ -61,7 +61,7 @@ struct ColorSink {
 
 /// The same for one segment that silhouettes and light will change: its opacity (1 − t would lose thin ones) and
 /// optical depths are wanted too.
-struct SegmentSink : ColorSink {
+struct SegmentAccumulator : ColorAccumulator {
     real opacity, smoothDepth, otherDepth;
 
     HWY_INLINE void begin() {
@@ -70,29 +70,31 @@ struct SegmentSink : ColorSink {
     }
     HWY_INLINE void add(const TransferPiece& piece, real pieceOpacity, real weighted) {
         opacity += t * pieceOpacity;
-        ColorSink::add(piece, pieceOpacity, weighted);
+        ColorAccumulator::add(piece, pieceOpacity, weighted);
     }
-    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) {
-        opacity += keep(crossed, t * real(peak.opacity));
-        ColorSink::addPeak(peak, crossed);
-        otherDepth = otherDepth + keep(crossed, real(peak.depth));
+    HWY_INLINE void addIsosurface(const TransferIsosurface& isosurface, mask crossed) {
+        opacity += keep(crossed, t * real(isosurface.opacity));
+        ColorAccumulator::addIsosurface(isosurface, crossed);
+        otherDepth = otherDepth + keep(crossed, real(isosurface.depth));
     }
     HWY_INLINE void addDepth(real depth) { smoothDepth = smoothDepth + depth; }
 };
 
 /// Optical depth alone.
-struct DepthSink {
+struct DepthAccumulator {
     static constexpr bool depthOnly = true;
     real depth;
 
-    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) { depth = depth + keep(crossed, real(peak.depth)); }
+    HWY_INLINE void addIsosurface(const TransferIsosurface& isosurface, mask crossed) {
+        depth = depth + keep(crossed, real(isosurface.depth));
+    }
     HWY_INLINE void addDepth(real more) { depth = depth + more; }
 };
 
 /// Segments some of which are too deep for the polynomials.
-template <class Sink>
+template <class Accumulator>
 HWY_NOINLINE void addDeepPiece(const TransferPiece& piece, real middle, real half, real depth, real halfStep,
-                               Sink& sink) {
+                               Accumulator& accumulator) {
     const real most(1e30f), zero(0.0f), one(1.0f);
     const real thin = min(depth, pieceDepthLimit()), slope = clamp(halfStep, -pieceSlopeLimit(), pieceSlopeLimit());
     const mask deep = either(depth > pieceDepthLimit(), abs(halfStep) > pieceSlopeLimit());
@@ -113,30 +115,30 @@ HWY_NOINLINE void addDeepPiece(const TransferPiece& piece, real middle, real hal
     }
     const real opacity = select(deep, one - fade, pieceOpacity(thin));
     const real skew = select(deep, deepPieceSkew(gFront, gBack, perRoot, fade), pieceSkew(thin, slope));
-    sink.add(piece, opacity, middle * opacity + half * skew);
+    accumulator.add(piece, opacity, middle * opacity + half * skew);
 }
 
 /// Adds a segment within one piece: `middle` and `half` are its mean scalar less the piece's own middle and half its
 /// scalar step, `path` its length or its variation of the scalar (0 where there is nothing to add).
-template <bool Fine = false, class Sink>
-HWY_INLINE void addPiece(const TransferPiece& piece, real middle, real half, real path, Sink& sink) {
+template <bool Fine = false, class Accumulator>
+HWY_INLINE void addPiece(const TransferPiece& piece, real middle, real half, real path, Accumulator& accumulator) {
     const real slope(piece.extinctionSlope);
     const real depth = max(path * (real(piece.extinction) + slope * middle), real(0.0f));
-    sink.addDepth(depth);
-    if constexpr (!Sink::depthOnly) {
+    accumulator.addDepth(depth);
+    if constexpr (!Accumulator::depthOnly) {
         const real halfStep = path * slope * half;
-        if constexpr (!Sink::hides) {
-            sink.add(piece, depth, middle * depth + halfStep * half * real(1.0f / 3.0f));
+        if constexpr (!Accumulator::hides) {
+            accumulator.add(piece, depth, middle * depth + halfStep * half * real(1.0f / 3.0f));
         } else if (Fine && HWY_LIKELY(none(depth > finePieceLimit()))) {
             const real opacity = finePieceOpacity(depth);
-            sink.add(piece, opacity, middle * opacity + half * finePieceSkew(depth, halfStep));
+            accumulator.add(piece, opacity, middle * opacity + half * finePieceSkew(depth, halfStep));
         } else {
             const mask deep = either(depth > pieceDepthLimit(), abs(halfStep) > pieceSlopeLimit());
             if (HWY_LIKELY(none(deep))) {
                 const real opacity = pieceOpacity(depth);
-                sink.add(piece, opacity, middle * opacity + half * pieceSkew(depth, halfStep));
+                accumulator.add(piece, opacity, middle * opacity + half * pieceSkew(depth, halfStep));
             } else {
-                addDeepPiece(piece, middle, half, depth, halfStep, sink);
+                addDeepPiece(piece, middle, half, depth, halfStep, accumulator);
             }
         }
     }
@@ -145,7 +147,7 @@ HWY_INLINE void addPiece(const TransferPiece& piece, real middle, real half, rea
 /// A segment of every pixel of a block. Where a pixel has none, `length` is 0 and both scalars are equal.
 struct Segments {
     real front, back;  ///< scalars
-    real length;       ///< scene lengths; for the scale-invariant integral with a look times |g| (cpu_look.h)
+    real length;       ///< scene lengths; for the scale-invariant integral with a variant times |g| (cpu_variant.h)
     mask live;
 };
 
@@ -158,17 +160,18 @@ HWY_INLINE real variationOf(const Segments& segments) {
     return max(abs(segments.back - segments.front), real(leastVariation));
 }
 
-template <bool ScaleInvariant, class Sink>
-HWY_INLINE void addWithinPiece(const TransferPiece& piece, const Segments& segments, Sink& sink) {
+template <bool ScaleInvariant, class Accumulator>
+HWY_INLINE void addWithinPiece(const TransferPiece& piece, const Segments& segments, Accumulator& accumulator) {
     const real half = real(0.5f) * (segments.back - segments.front);
     const real middle = segments.front + half - real(piece.origin);
-    addPiece(piece, middle, half, ScaleInvariant ? abs(half + half) : segments.length, sink);
+    addPiece(piece, middle, half, ScaleInvariant ? abs(half + half) : segments.length, accumulator);
 }
 
 /// The part within one of several pieces of the segments along which the scalar rises, or falls. `perScalar`: path per
 /// unit of scalar.
-template <bool Rises, bool ScaleInvariant, class Sink>
-HWY_INLINE void addPart(const TransferPiece& piece, const Segments& segments, real perScalar, Sink& sink) {
+template <bool Rises, bool ScaleInvariant, class Accumulator>
+HWY_INLINE void addPart(const TransferPiece& piece, const Segments& segments, real perScalar,
+                        Accumulator& accumulator) {
     if (!piece.visible) return;
     const real low(piece.low), high(piece.high), zero(0.0f);
     const real begin = Rises ? max(segments.front, low) : min(segments.front, high);
@@ -179,20 +182,20 @@ HWY_INLINE void addPart(const TransferPiece& piece, const Segments& segments, re
     if constexpr (!ScaleInvariant) path = length * perScalar;
     const real middle = begin + half - real(piece.origin);
     if (piece.fine)
-        addPiece<true>(piece, middle, half, path, sink);
+        addPiece<true>(piece, middle, half, path, accumulator);
     else if (!none(path > zero))
-        addPiece(piece, middle, half, path, sink);
+        addPiece(piece, middle, half, path, accumulator);
 }
 
 /// The isosurface between two pieces that show nothing else; nullptr: there is more to see, or less.
-HWY_INLINE const TransferPeak* onlyPeak(const CpuTransfer& transfer, std::size_t first, std::size_t last) {
+HWY_INLINE const TransferIsosurface* onlyIsosurface(const CpuTransfer& transfer, std::size_t first, std::size_t last) {
     const TransferPiece &a = transfer.pieces()[first], &b = transfer.pieces()[last];
-    const bool only = last == first + 1 && !a.visible && !b.visible && a.peakEnd == a.peakBegin + 1;
-    return only ? &transfer.peaks()[a.peakBegin] : nullptr;
+    const bool only = last == first + 1 && !a.visible && !b.visible && a.isosurfaceEnd == a.isosurfaceBegin + 1;
+    return only ? &transfer.isosurfaces()[a.isosurfaceBegin] : nullptr;
 }
 
-HWY_INLINE mask crossed(const TransferPeak& peak, const Segments& segments) {
-    return both(segments.live, crossesValue(segments.front, segments.back, real(peak.value)));
+HWY_INLINE mask crossed(const TransferIsosurface& isosurface, const Segments& segments) {
+    return both(segments.live, crossesValue(segments.front, segments.back, real(isosurface.value)));
 }
 
 /// Steps of the scalar that float tells: relative to it, and where it is 0, such that 1 over it is a float too.
@@ -202,13 +205,13 @@ constexpr float leastRelativeStep = 0x1p-22f, leastAbsoluteStep = 1e-34f;
 constexpr std::size_t fewPieces = 3;
 
 /// Segments that cross nodes or isosurfaces: pieces first … last of the transfer function.
-template <bool ScaleInvariant, class Sink>
+template <bool ScaleInvariant, class Accumulator>
 HWY_INLINE void addAcrossPieces(const CpuTransfer& transfer, std::size_t first, std::size_t last,
-                                const Segments& segments, Sink& sink) {
+                                const Segments& segments, Accumulator& accumulator) {
     const auto& pieces = transfer.pieces();
-    const auto& peaks = transfer.peaks();
-    if (const TransferPeak* peak = onlyPeak(transfer, first, last))
-        return sink.addPeak(*peak, crossed(*peak, segments));
+    const auto& isosurfaces = transfer.isosurfaces();
+    if (const TransferIsosurface* isosurface = onlyIsosurface(transfer, first, last))
+        return accumulator.addIsosurface(*isosurface, crossed(*isosurface, segments));
     // no step, or one too small to be divided by, becomes a step upwards that float just tells: the value from above
     Segments cut = segments;
     if constexpr (!ScaleInvariant) {
@@ -227,30 +230,31 @@ HWY_INLINE void addAcrossPieces(const CpuTransfer& transfer, std::size_t first, 
     }
     if (!none(rising)) {
         for (std::size_t k = first; k <= last; ++k) {
-            addPart<true, ScaleInvariant>(pieces[k], cut, perScalar, sink);
+            addPart<true, ScaleInvariant>(pieces[k], cut, perScalar, accumulator);
             if (k == last) break;
-            for (std::uint32_t i = pieces[k].peakBegin; i < pieces[k].peakEnd; ++i) {
-                sink.addPeak(peaks[i], both(rising, crossed(peaks[i], segments)));
+            for (std::uint32_t i = pieces[k].isosurfaceBegin; i < pieces[k].isosurfaceEnd; ++i) {
+                accumulator.addIsosurface(isosurfaces[i], both(rising, crossed(isosurfaces[i], segments)));
             }
         }
     }
     if (!none(falling)) {
         for (std::size_t k = last + 1; k-- > first;) {
-            addPart<false, ScaleInvariant>(pieces[k], cut, perScalar, sink);
+            addPart<false, ScaleInvariant>(pieces[k], cut, perScalar, accumulator);
             if (k == first) break;
-            for (std::uint32_t i = pieces[k - 1].peakEnd; i-- > pieces[k - 1].peakBegin;) {
-                sink.addPeak(peaks[i], both(falling, crossed(peaks[i], segments)));
+            for (std::uint32_t i = pieces[k - 1].isosurfaceEnd; i-- > pieces[k - 1].isosurfaceBegin;) {
+                accumulator.addIsosurface(isosurfaces[i], both(falling, crossed(isosurfaces[i], segments)));
             }
         }
     }
 }
 
 /// Segments along pieces first … last.
-template <bool ScaleInvariant, class Sink>
+template <bool ScaleInvariant, class Accumulator>
 HWY_INLINE void addAlong(const CpuTransfer& transfer, std::size_t first, std::size_t last, const Segments& segments,
-                         Sink& sink) {
-    if (first != last) return addAcrossPieces<ScaleInvariant>(transfer, first, last, segments, sink);
-    if (transfer.pieces()[first].visible) addWithinPiece<ScaleInvariant>(transfer.pieces()[first], segments, sink);
+                         Accumulator& accumulator) {
+    if (first != last) return addAcrossPieces<ScaleInvariant>(transfer, first, last, segments, accumulator);
+    if (transfer.pieces()[first].visible)
+        addWithinPiece<ScaleInvariant>(transfer.pieces()[first], segments, accumulator);
 }
 
 }  // namespace tetralux::projection::HWY_NAMESPACE

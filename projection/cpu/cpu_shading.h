@@ -48,23 +48,25 @@ HWY_INLINE void vouch(const TileFrame& frame, real cosine, mask live, real& dept
     if (HWY_LIKELY(none(grazing))) return;
     const real change = depth * real(rounding) / max(abs(cosine), real(1e-30f));
     const real seen = frame.kind == TileKind::Additive ? real(1.0f) / max(depth, real(1.0f)) : real(1.0f) - opacity;
-    const mask doubted = both(grazing, change * seen > real(largestError));
-    opacity = select(doubted, unsure(), opacity);
-    depth = select(doubted, unsure(), depth);
+    const mask isUncertainPixel = both(grazing, change * seen > real(largestError));
+    opacity = select(isUncertainPixel, unsure(), opacity);
+    depth = select(isUncertainPixel, unsure(), depth);
 }
 
 /// `towards`: the unit direction of each pixel's ray, (right, down, forward). `fall` has the sign of s_f − s_b.
 /// `middles()` and `place()` give where the segments' middles lie (cpu_light.h), which only light in full asks.
 template <bool ScaleInvariant, class Middles, class Place>
 HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& batch, std::size_t j,
-                                      const SegmentSink& sink, const Segments& segments, real fall, vec3 towards,
-                                      const Middles& middles, const Place& place, const vec3* cut = nullptr) {
+                                      const SegmentAccumulator& accumulator, const Segments& segments, real fall,
+                                      vec3 towards, const Middles& middles, const Place& place,
+                                      const vec3* cut = nullptr) {
     const auto& shading = *frame.shading;
     const real magnitude(batch.gradient[j]);
     const vec3 normal{real(batch.normal[0][j]), real(batch.normal[1][j]), real(batch.normal[2][j])};
-    real plainDepth = sink.smoothDepth + sink.otherDepth, depth = plainDepth;
-    const real inverse = select(sink.opacity > real(0.0f), real(1.0f) / max(sink.opacity, real(1e-37f)), real(0.0f));
-    vec3 mean = inverse * vec3(sink.r, sink.g, sink.b);
+    real plainDepth = accumulator.smoothDepth + accumulator.otherDepth, depth = plainDepth;
+    const real inverse =
+        select(accumulator.opacity > real(0.0f), real(1.0f) / max(accumulator.opacity, real(1e-37f)), real(0.0f));
+    vec3 mean = inverse * vec3(accumulator.r, accumulator.g, accumulator.b);
     const bool enhanced = shading.silhouette && (frame.smoothSilhouettes || batch.gradient[j] > 0);
     if (enhanced) {
         real cosine, steepness;
@@ -77,8 +79,8 @@ HWY_INLINE ShadedSegment shadeSegment(const TileFrame& frame, const CellBatch& b
             steepness = magnitude;
         }
         if constexpr (ScaleInvariant) {
-            const real extinction = sink.smoothDepth / variationOf(segments);
-            depth = silhouetteDepth(extinction * steepness * segments.length, sink.otherDepth, cosine);
+            const real extinction = accumulator.smoothDepth / variationOf(segments);
+            depth = silhouetteDepth(extinction * steepness * segments.length, accumulator.otherDepth, cosine);
         } else {
             depth = silhouetteDepth(real(0.0f), depth, cosine);
         }

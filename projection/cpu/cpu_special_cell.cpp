@@ -31,7 +31,7 @@ static void keepInDouble(const ProjectedCell& cell, double offsetX, double offse
     steep.scalar[j] = cell.scalar;
     steep.scalarPerX[j] = cell.scalarPerX;
     steep.scalarPerY[j] = cell.scalarPerY;
-    steep.scalarPerRho[j] = cell.scalarPerRho;
+    steep.scalarPerInverseDepth[j] = cell.scalarPerInverseDepth;
 }
 
 bool rectangleAtEye(const TileFrame& frame, const std::array<CameraPoint, 4>& corners, PixelRect& rect) {
@@ -87,17 +87,18 @@ void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int
     batch.scalar[j] = static_cast<float>(cell.scalar);
     batch.scalarPerX[j] = static_cast<float>(cell.scalarPerX);
     batch.scalarPerY[j] = static_cast<float>(cell.scalarPerY);
-    batch.scalarPerRho[j] = static_cast<float>(cell.scalarPerRho);
+    batch.scalarPerInverseDepth[j] = static_cast<float>(cell.scalarPerInverseDepth);
     batch.scale[j] = static_cast<float>(reference.depth);
     batch.offsetX[j] = static_cast<float>(tileX - frame.centre.x - reference.imageX);
     batch.offsetY[j] = static_cast<float>(tileY - frame.centre.y - reference.imageY);
     batch.restX[j] = batch.restY[j] = 0.0f;
     const auto depths = depthBounds(frame.depthReference, reference.depth, reference.perDepth, deepest, deepest, false);
-    batch.rhoNear[j] = static_cast<float>(largestRho);
-    batch.rhoFar[j] = static_cast<float>(depths.rhoFar - 1e-6);
-    batch.nearness[j] = static_cast<float>(depths.nearness);
-    batch.nearnessPerRho[j] = static_cast<float>(depths.nearnessPerRho);
-    batch.nearnessChecked[j] = static_cast<float>(depths.nearness - frame.orderTolerance - depths.rounding);
+    batch.inverseDepthNear[j] = static_cast<float>(largestInverseDepth);
+    batch.inverseDepthFar[j] = static_cast<float>(depths.inverseDepthFar - 1e-6);
+    batch.rayInverseDepth[j] = static_cast<float>(depths.rayInverseDepth);
+    batch.rayPerInverseDepth[j] = static_cast<float>(depths.rayPerInverseDepth);
+    batch.rayInverseDepthChecked[j] =
+        static_cast<float>(depths.rayInverseDepth - frame.orderTolerance - depths.rounding);
     // in scene lengths, as (right, down, forward)
     const double gx = cell.gradient.x / frame.pixel, gy = cell.gradient.y / frame.pixel, gz = cell.gradient.z;
     const double magnitude = std::sqrt(gx * gx + gy * gy + gz * gz), scale = magnitude > 0 ? 1.0 / magnitude : 0.0;

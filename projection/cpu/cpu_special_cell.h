@@ -18,7 +18,7 @@ struct SteepCells {
     static constexpr std::size_t capacity = 8;
     float is[capacity];  ///< not 0: of this cell the rest is set
     double plane[4][3][capacity], offsetX[capacity], offsetY[capacity];
-    double scalar[capacity], scalarPerX[capacity], scalarPerY[capacity], scalarPerRho[capacity];
+    double scalar[capacity], scalarPerX[capacity], scalarPerY[capacity], scalarPerInverseDepth[capacity];
 };
 
 /// Cells of a tile, set up: the record of projection/cells/cell_interval.glsl with the tile's first pixel as origin of
@@ -29,18 +29,18 @@ struct CellBatch {
     using Lanes = T[capacity];
 
     alignas(64) Lanes<float> plane[4][3];
-    Lanes<std::uint32_t> frontMask;  ///< Σ 2^k over the faces that bound rho from above
+    Lanes<std::uint32_t> frontMask;  ///< Σ 2^k over the faces that bound inverseDepth from above
     Lanes<float> offsetX, offsetY;   ///< dx, dy of the tile's first pixel
     Lanes<float> restX, restY;       ///< and what of them float leaves, which counts near the cell
-    Lanes<float> scalar, scalarPerX, scalarPerY, scalarPerRho, scalarLow, scalarHigh;
+    Lanes<float> scalar, scalarPerX, scalarPerY, scalarPerInverseDepth, scalarLow, scalarHigh;
     Lanes<float> scale;
-    Lanes<float> rhoNear, rhoFar;  ///< of the cell's nearest (or the eye's) and deepest corner
-    /// Nearness along rays that is the same for all cells: nearness + nearnessPerRho·rho; `nearnessChecked` is less by
-    /// the tolerance of the order check.
-    Lanes<float> nearnessPerRho, nearness, nearnessChecked;
+    Lanes<float> inverseDepthNear, inverseDepthFar;  ///< of the cell's nearest (or the eye's) and deepest corner
+    /// Inverse depth along rays that is the same for all cells: inverse depth + rayPerInverseDepth·inverseDepth;
+    /// `rayInverseDepthChecked` is less by the tolerance of the order check.
+    Lanes<float> rayPerInverseDepth, rayInverseDepth, rayInverseDepthChecked;
     Lanes<float> normal[3], gradient;  ///< unit, as (right, down, forward); scene scalars per scene length
-    Lanes<float> eyeWeight[4];         ///< barycentric coordinates of the eye (orthographic: their rates per rho)
-    Lanes<std::int32_t> corner[4];     ///< rows of attributes, in the order of the planes: point numbers
+    Lanes<float> eyeWeight[4];      ///< barycentric coordinates of the eye (orthographic: their rates per inverseDepth)
+    Lanes<std::int32_t> corner[4];  ///< rows of attributes, in the order of the planes: point numbers
     SteepCells steep;
     alignas(64) std::int32_t begin[capacity][2], end[capacity][2];  ///< pixels (x, y) within the tile
 };
@@ -60,7 +60,8 @@ inline std::uint64_t packedPair(int x, int y) {
 void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int32_t (&points)[4], mesh::CellIndex cell,
                     bool odd, std::size_t j, CellBatch& batch);
 
-/// Puts rows of attributes that are particular to cells (shading::VertexLight::corners) in the place of the points' own.
+/// Puts rows of attributes that are particular to cells (shading::VertexLight::corners) in the place of the points'
+/// own.
 void takeRowsOfCells(const TileFrame& frame, std::span<const TileEntry> entries, std::size_t cells, CellBatch& batch);
 
 /// The pixels that the part of a cell in front of the eye may cover; false when there are none.

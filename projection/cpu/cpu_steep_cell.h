@@ -37,23 +37,24 @@ public:
         }
         const FaceOrder& order = faceOrders[batch.frontMask[j]];
         for (std::size_t i = 0; i < laneCount(); i += step) {
-            wide in(order.fronts < 4 ? static_cast<double>(batch.rhoNear[j]) : -1e30);  // none is seen of a flat cell
-            wide out(static_cast<double>(batch.rhoFar[j]));
+            wide in(order.fronts < 4 ? static_cast<double>(batch.inverseDepthNear[j])
+                                     : -1e30);  // none is seen of a flat cell
+            wide out(static_cast<double>(batch.inverseDepthFar[j]));
             for (int k = 0; k < 4; ++k) {
                 const auto& plane = steep_.plane[order.face[k]];
-                const wide rho = in_double::planeRho(wide(plane[0][j]), wide(plane[1][j]), wide(plane[2][j]),
-                                                     load(dx_ + i), load(dy_ + i));
+                const wide inverseDepth = in_double::planeInverseDepth(wide(plane[0][j]), wide(plane[1][j]),
+                                                                       wide(plane[2][j]), load(dx_ + i), load(dy_ + i));
                 if (k < order.fronts)
-                    in = min(in, rho);
+                    in = min(in, inverseDepth);
                 else
-                    out = max(out, rho);
+                    out = max(out, inverseDepth);
             }
             store(in, in_ + i);
             store(out, out_ + i);
         }
     }
 
-    /// Nearness ratios at which rays enter and leave.
+    /// Inverse depth ratios at which rays enter and leave.
     HWY_INLINE void interval(real& in, real& out) const {
         in = rounded(in_);
         out = rounded(out_);
@@ -67,21 +68,23 @@ public:
         alignas(64) double front[most], back[most], length[most], between[most];
         storeAt(rayLength, rays);
         const wide atReference(steep_.scalar[j_]), perX(steep_.scalarPerX[j_]), perY(steep_.scalarPerY[j_]),
-            perRho(steep_.scalarPerRho[j_]), low(static_cast<double>(batch_.scalarLow[j_])),
+            perInverseDepth(steep_.scalarPerInverseDepth[j_]), low(static_cast<double>(batch_.scalarLow[j_])),
             high(static_cast<double>(batch_.scalarHigh[j_])), lengths(static_cast<double>(scale));
         for (std::size_t i = 0; i < laneCount(); i += step) {
             const wide dx = load(dx_ + i), dy = load(dy_ + i), from = load(in_ + i), to = load(out_ + i);
             store(from - to, between + i);
             if (orthographic) {
-                store(in_double::scalarOrthographic(atReference, perX, perY, perRho, dx, dy, from, low, high),
+                store(in_double::scalarOrthographic(atReference, perX, perY, perInverseDepth, dx, dy, from, low, high),
                       front + i);
-                store(in_double::scalarOrthographic(atReference, perX, perY, perRho, dx, dy, to, low, high), back + i);
+                store(in_double::scalarOrthographic(atReference, perX, perY, perInverseDepth, dx, dy, to, low, high),
+                      back + i);
                 store(in_double::segmentLengthOrthographic(lengths, from, to), length + i);
             } else {
                 const wide ray(hn::PromoteTo(DoubleTag(), hn::LoadU(HalfFloatTag(), rays + i)));
-                store(in_double::scalarPerspective(atReference, perX, perY, perRho, dx, dy, from, low, high),
+                store(in_double::scalarPerspective(atReference, perX, perY, perInverseDepth, dx, dy, from, low, high),
                       front + i);
-                store(in_double::scalarPerspective(atReference, perX, perY, perRho, dx, dy, to, low, high), back + i);
+                store(in_double::scalarPerspective(atReference, perX, perY, perInverseDepth, dx, dy, to, low, high),
+                      back + i);
                 store(in_double::segmentLengthPerspective(lengths, from, to, ray), length + i);
             }
         }
@@ -102,10 +105,10 @@ private:
             hn::StoreU(hn::DemoteTo(HalfFloatTag(), load(from + i).v), HalfFloatTag(), floats + i);
         return loadAligned(floats);
     }
-    /// Takes over where `limited` is no longer what was told.
-    HWY_INLINE static void limitTo(real limited, real told, double* numbers) {
+    /// Takes over where `clipped` is no longer what was told.
+    HWY_INLINE static void limitTo(real clipped, real told, double* numbers) {
         alignas(64) float now[most], before[most];
-        storeAt(limited, now);
+        storeAt(clipped, now);
         storeAt(told, before);
         for (std::size_t i = 0; i < laneCount(); ++i)
             if (now[i] != before[i]) numbers[i] = static_cast<double>(now[i]);

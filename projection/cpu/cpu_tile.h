@@ -39,7 +39,7 @@ enum class TileKind {
     Absorption,  ///< optical depth only: all that is seen has one colour
     Shaded,      ///< composite with silhouettes or light
     FirstHit,
-    // by drawLimitedTile only
+    // by drawClippedTile only
     Mip,
     Minimum,
     Average,
@@ -49,22 +49,22 @@ enum class TileKind {
 
 /// Pixel maps (pixel_maps.h) in the terms of tiles, width·height each.
 struct TileLimits {
-    std::vector<float> nearest, farthest;      ///< as nearness along rays: segments lie between
+    std::vector<float> nearest, farthest;      ///< as inverse depth along rays: segments lie between
     std::vector<float> layerEnd;               ///< likewise: where the layer of a cut ends; empty: none
     std::vector<float> scale;                  ///< of extinction; empty: 1
     std::vector<std::array<float, 3>> normal;  ///< of that cut, as (right, down, forward)
 };
 
 /// How segments of TileKind::Shaded are shaded.
-enum class Look {
+enum class ShadingVariant {
     General,      ///< anything (cpu_shading.h)
-    Silhouettes,  ///< silhouettes alone; this and the next by cpu_look.h
+    Silhouettes,  ///< silhouettes alone; this and the next by cpu_variant.h
     Lit,          ///< plain lights, with silhouettes or without
-    Lamps         ///< the same with lights at places, at the eye or of colour, and Blinn and Phong's highlights
+    LocalLights   ///< the same with lights at places, at the eye or of colour, and Blinn and Phong's highlights
 };
 
-/// A light as the quick looks need it.
-struct QuickLamp {
+/// A light as the quick variants need it.
+struct QuickLight {
     int kind = 0;         ///< FrameLight's
     float place[3] = {};  ///< towards it, or where it is (light_frame.h): (right, down, forward)
     float color[3] = {1, 1, 1}, specular[3] = {1, 1, 1};  ///< of diffuse and of specular light
@@ -72,20 +72,20 @@ struct QuickLamp {
     float fade[3] = {1, 0, 0};
 };
 
-/// What the quick looks need of a frame.
-struct QuickLook {
+/// What the quick variants need of a frame.
+struct QuickVariant {
     static constexpr std::size_t mostLights = 8;
-    Look look = Look::General;
+    ShadingVariant variant = ShadingVariant::General;
     bool silhouettes = false, transmission = false;
     std::size_t lights = 0;
-    QuickLamp lamps[mostLights];
+    QuickLight localLights[mostLights];
     float ambient[3] = {}, exponent = 0;
     unsigned wholeExponent = 0;  ///< the exponent, when it is a whole number that squaring makes; else 0
     float leastCosine = 0;       ///< below it a lobe is less than 1e-8
-    // of Look::Lamps
+    // of ShadingVariant::LocalLights
     bool orthographic = false;
     bool halfway = false;  ///< lobes about the half-way vector
-    bool places = false;   ///< some lamp asks where the segments are
+    bool places = false;   ///< some local light asks where the segments are
     float diffuse = 1, specular = 1, diffuseThrough = 1, specularThrough = 1;
 };
 
@@ -102,16 +102,16 @@ struct TileFrame {
     const ScalarColors* scalarColors;  ///< of extreme and mean scalars
     TileKind kind;
     bool scaleInvariant;
-    bool ordered;  ///< entries come front to back, so a pixel where they do not is doubtful
+    bool ordered;  ///< entries come front to back, so a pixel where they do not is uncertain
     bool orthographic;
     int width, height;
     glm::dvec2 centre;      ///< sampleCentre of the camera
     double pixel;           ///< size of a pixel at depth 1 (orthographic: in scene lengths)
-    double depthReference;  ///< scene lengths: nearness along rays is measured from this depth
-    float orderTolerance;   ///< of nearness
+    double depthReference;  ///< scene lengths: inverse depth along rays is measured from this depth
+    float orderTolerance;   ///< of inverse depth
     const shading::ShadingSettings* shading;
     std::vector<std::array<float, 3>> lights;  ///< towards each, as (right, down, forward)
-    QuickLook look;
+    QuickVariant variant;
     // light in full (cpu_light.h): anything that ShadingSettings::plain() does not hold for
     bool lightInFull;
     bool attributes;  ///< whether anything reads those of the vertices
@@ -135,7 +135,7 @@ struct TileResult {
     std::uint64_t fragments = 0;
     std::uint64_t cellsSetUp = 0;
     bool retired = false;  ///< opaque before its list ended
-    std::vector<std::uint32_t> doubtfulPixels;
+    std::vector<std::uint32_t> uncertainPixels;
 };
 
 /// Draws the tile whose first pixel is (x0, y0) into `image`: the most usual pictures, without limits.
@@ -143,7 +143,7 @@ void drawTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry>
               TileResult& result);
 
 /// The same with all kinds, within `frame.limits` and with `frame.classification`; not as fast.
-void drawLimitedTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+void drawClippedTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
                      TileResult& result);
 
 /// Name of the instruction set that drawTile uses.

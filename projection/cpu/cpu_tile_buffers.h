@@ -27,7 +27,8 @@ inline std::size_t placeInTile(int x, int y) {
 
 /// Accumulators of a tile. What they hold depends on the kind:
 ///
-/// - Composite, Shaded: premultiplied colour r g b, transmittance t, nearness `last` at which the last segment ended,
+/// - Composite, Shaded: premultiplied colour r g b, transmittance t, inverse depth `last` at which the last segment
+/// ended,
 ///   and its scalar
 /// - FirstHit: colour of the hit, t = 1 until then
 /// - Absorption: depth in t
@@ -38,10 +39,10 @@ inline std::size_t placeInTile(int x, int y) {
 struct TileBuffers {
     alignas(64) float r[tilePixels], g[tilePixels], b[tilePixels], t[tilePixels], last[tilePixels],
         lastScalar[tilePixels], rayLength[tilePixels],
-        inverseLength[tilePixels];  // the last where looks need it
+        inverseLength[tilePixels];  // the last where variants need it
 };
 
-/// Faces of a cell, those that bound rho from above first.
+/// Faces of a cell, those that bound inverseDepth from above first.
 struct FaceOrder {
     int face[4], fronts;
 };
@@ -62,8 +63,8 @@ constexpr std::array<FaceOrder, 16> makeFaceOrders() {
 constexpr std::array<FaceOrder, 16> faceOrders = makeFaceOrders();
 
 constexpr float unset = -1e30f;      // no scalar yet
-constexpr float nothingYet = 3e38f;  // nearness before the first segment
-constexpr float doubtful = -3e38f;   // every later segment is nearer: once out of order, a pixel stays so
+constexpr float nothingYet = 3e38f;  // inverse depth before the first segment
+constexpr float uncertain = -3e38f;  // every later segment is nearer: once out of order, a pixel stays so
 constexpr float absorbed = 13.8f;    // −ln(leastTransmittance)
 
 template <TileKind Kind>
@@ -110,15 +111,15 @@ void resolveTile(const TileFrame& frame, const TileBuffers& px, int x0, int y0, 
         for (int x = 0; x < width; ++x) {
             const std::size_t i = placeInTile(x, y);
             image.at(x0 + x, y0 + y) = finishedPixel<Kind>(frame, px, i);
-            bool doubted = checked && px.last[i] == doubtful;
+            bool isUncertainPixel = checked && px.last[i] == uncertain;
             if constexpr (gathersScalar<Kind>) {
                 const std::optional<float> scalar = gatheredScalar<Kind>(px, i);
-                doubted = scalar && frame.scalarColors->doubts(*scalar);
+                isUncertainPixel = scalar && frame.scalarColors->isUncertain(*scalar);
             }
-            if (doubted)
-                result.doubtfulPixels.push_back(static_cast<std::uint32_t>(y0 + y) *
-                                                    static_cast<std::uint32_t>(frame.width) +
-                                                static_cast<std::uint32_t>(x0 + x));
+            if (isUncertainPixel)
+                result.uncertainPixels.push_back(static_cast<std::uint32_t>(y0 + y) *
+                                                     static_cast<std::uint32_t>(frame.width) +
+                                                 static_cast<std::uint32_t>(x0 + x));
         }
 }
 

@@ -10,13 +10,13 @@
 
 #include <projection/cpu/cpu_cell_batch.h>
 #include <projection/cpu/cpu_cell_rays.h>
-#include <projection/cpu/cpu_limited_segment.h>
-#include <projection/cpu/cpu_look.h>
+#include <projection/cpu/cpu_clipped_segment.h>
 #include <projection/cpu/cpu_segment.h>
 #include <projection/cpu/cpu_shading.h>
 #include <projection/cpu/cpu_steep_cell.h>
 #include <projection/cpu/cpu_tile.h>
 #include <projection/cpu/cpu_tile_buffers.h>
+#include <projection/cpu/cpu_variant.h>
 
 #if defined(TETRALUX_CPU_TILE_DRAWING_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TETRALUX_CPU_TILE_DRAWING_H
@@ -28,10 +28,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace tetralux::projection::HWY_NAMESPACE {
 
-/// `Limited`: within frame.limits and with frame.classification; then ScaleInvariant is false and frame.scaleInvariant
-/// counts, and Peaks is true.
-/// `look`: how Composite is shaded, and Absorption with silhouettes; General: not at all.
-template <TileKind Kind, bool ScaleInvariant, bool Peaks, bool Limited, Look look>
+/// `Clipped`: within frame.limits and with frame.classification; then ScaleInvariant is false and frame.scaleInvariant
+/// counts, and Isosurfaces is true.
+/// `variant`: how Composite is shaded, and Absorption with silhouettes; General: not at all.
+template <TileKind Kind, bool ScaleInvariant, bool Isosurfaces, bool Clipped, ShadingVariant variant>
 class TileDrawing {
 public:
     TileDrawing(const TileFrame& frame, int x0, int y0, TileResult& result)
@@ -55,7 +55,7 @@ public:
                 __builtin_prefetch(&frame_.cells[entries[k].cell]);
             const std::size_t cells = setUpBatch<gradients>(frame_, x0_, y0_, entries.subspan(i), batch_);
             result_.cellsSetUp += cells;
-            if constexpr (looksAtPeaks) lookAtPeaks(frame_, batch_, cells, rays_, peakLooks_);
+            if constexpr (preparesIsosurfaces) prepareIsosurfaces(frame_, batch_, cells, rays_, preparedIsosurfaces_);
             for (std::size_t j = 0; j < cells; ++j) drawCell(j);
             if (frame_.earlyTermination && ++sinceCheck == 8) {
                 sinceCheck = 0;
@@ -76,20 +76,21 @@ private:
         Kind == TileKind::Composite || Kind == TileKind::Shaded || Kind == TileKind::FirstHit;
     static constexpr bool integrates =
         colors || Kind == TileKind::Absorption || Kind == TileKind::Additive || Kind == TileKind::Depth;
-    static constexpr bool usesNormals = look == Look::Lit || look == Look::Lamps || Kind == TileKind::Shaded ||
-                                        Kind == TileKind::FirstHit || Kind == TileKind::Additive ||
-                                        (Limited && Kind == TileKind::Absorption);
-    static constexpr GradientParts gradients = usesNormals                 ? GradientParts::All
-                                               : look == Look::Silhouettes ? GradientParts::Magnitude
-                                                                           : GradientParts::None;
+    static constexpr bool usesNormals = variant == ShadingVariant::Lit || variant == ShadingVariant::LocalLights ||
+                                        Kind == TileKind::Shaded || Kind == TileKind::FirstHit ||
+                                        Kind == TileKind::Additive || (Clipped && Kind == TileKind::Absorption);
+    static constexpr GradientParts gradients = usesNormals                              ? GradientParts::All
+                                               : variant == ShadingVariant::Silhouettes ? GradientParts::Magnitude
+                                                                                        : GradientParts::None;
     /// Light falls on the layers of cuts by their own normals, so segments are divided at the end of one.
     static constexpr bool cutLayers =
-        Limited && (Kind == TileKind::Shaded || Kind == TileKind::FirstHit || Kind == TileKind::Additive);
-    static constexpr bool looksAtPeaks = look != Look::General && Peaks && Kind == TileKind::Composite;
+        Clipped && (Kind == TileKind::Shaded || Kind == TileKind::FirstHit || Kind == TileKind::Additive);
+    static constexpr bool preparesIsosurfaces =
+        variant != ShadingVariant::General && Isosurfaces && Kind == TileKind::Composite;
     static constexpr int rows = static_cast<int>(laneCount()) / columnWidth;
 
     void clear() {
-        if constexpr (Limited) limits_.clear();
+        if constexpr (Clipped) limits_.clear();
         for (int x = 0; x < cpuTileSize; ++x)
             for (int y = 0; y < paddedRows; ++y) {
                 const std::size_t i = placeInTile(x, y);
@@ -103,7 +104,7 @@ private:
                     px_.t[i] = Kind == TileKind::Mip ? unset : Kind == TileKind::Minimum ? -unset : 0.0f;
                 px_.last[i] = nothingYet;
                 px_.lastScalar[i] = unset;
-                if constexpr (Limited) {
+                if constexpr (Clipped) {
                     if (inside && frame_.limits != nullptr)
                         limits_.set(*frame_.limits,
                                     static_cast<std::size_t>(y0_ + y) * static_cast<std::size_t>(frame_.width) +
@@ -116,7 +117,8 @@ private:
                         ? 1.0f
                         : static_cast<float>(std::sqrt(1 + frame_.pixel * frame_.pixel * (dx * dx + dy * dy)));
             }
-        if constexpr (looksAtPeaks || look == Look::Lit || look == Look::Lamps) rays_ = inverseRayLengths(px_);
+        if constexpr (preparesIsosurfaces || variant == ShadingVariant::Lit || variant == ShadingVariant::LocalLights)
+            rays_ = inverseRayLengths(px_);
     }
 
     bool finished() const {
@@ -142,20 +144,21 @@ private:
         if (xBegin >= x1 || yBegin >= y1) return;
         const FaceOrder& order = faceOrders[batch_.frontMask[j]];
         std::size_t first = 0, last = 0;
-        if constexpr (looksAtPeaks) {
-            first = peakLooks_.first[j];
-            last = peakLooks_.last[j];
+        if constexpr (preparesIsosurfaces) {
+            first = preparedIsosurfaces_.first[j];
+            last = preparedIsosurfaces_.last[j];
         } else if constexpr (integrates) {
-            findPieces<Peaks>(*frame_.transfer, batch_, j, first, last);
+            findPieces<Isosurfaces>(*frame_.transfer, batch_, j, first, last);
         }
-        if constexpr (look != Look::General) setLook<look, ScaleInvariant>(frame_.look, batch_, j, look_);
+        if constexpr (variant != ShadingVariant::General)
+            setVariant<variant, ScaleInvariant>(frame_.variant, batch_, j, variant_);
         const CellBlocks blocks{j, &order, xBegin, yBegin, x1, y1, first, last};
-        if constexpr (looksAtPeaks && look == Look::Silhouettes) {
-            if (peakLooks_.peak[j] != nullptr && look_.gradient > 0) {
-                if (!peakLooks_.veiled[j])
-                    return peakLooks_.narrow(j) ? drawBlocks<CellShows::NarrowPeak>(blocks)
-                                                : drawBlocks<CellShows::WidePeak>(blocks);
-                if constexpr (ScaleInvariant) return drawBlocks<CellShows::VeiledPeak>(blocks);
+        if constexpr (preparesIsosurfaces && variant == ShadingVariant::Silhouettes) {
+            if (preparedIsosurfaces_.isosurface[j] != nullptr && variant_.gradient > 0) {
+                if (!preparedIsosurfaces_.inMedium[j])
+                    return preparedIsosurfaces_.narrow(j) ? drawBlocks<CellShows::NarrowIsosurface>(blocks)
+                                                          : drawBlocks<CellShows::WideIsosurface>(blocks);
+                if constexpr (ScaleInvariant) return drawBlocks<CellShows::IsosurfaceInMedium>(blocks);
             }
         }
         drawBlocks<CellShows::Anything>(blocks);
@@ -180,12 +183,12 @@ private:
     template <CellShows shows>
     HWY_INLINE void drawBlock(std::size_t j, std::size_t at, int x, int y, real dx, real dy, real in, real out,
                               std::size_t first, std::size_t last) {
-        if constexpr (Limited) {
+        if constexpr (Clipped) {
             if (frame_.limits != nullptr) limit(j, at, in, out);
         }
         if constexpr (cutLayers) {
             if (layered_) {
-                const real end = rhoOfNearness(j, loadAt(limits_.layerEnd + at)), layerOut = max(out, end);
+                const real end = inverseDepthOfRay(j, loadAt(limits_.layerEnd + at)), layerOut = max(out, end);
                 if (!none(in > layerOut))
                     drawSegments<shows>({j, at, x, y, dx, dy, in, layerOut, real(0.0f), true}, first, last);
                 in = min(in, end);
@@ -200,7 +203,7 @@ private:
         const std::size_t j = block.j, at = block.at;
         const real dx = block.dx, dy = block.dy;
         real &in = block.in, &out = block.out;
-        const cell_real scale{look == Look::General ? batch_.scale[j] : look_.lengthScale};
+        const cell_real scale{variant == ShadingVariant::General ? batch_.scale[j] : variant_.lengthScale};
         const real rayLength = loadAt(px_.rayLength + at);
         const bool steep = batch_.steep.is[j] != 0.0f;
         Segments segments;
@@ -219,7 +222,7 @@ private:
         out = keep(live, out);
 
         const cell_real scalar{batch_.scalar[j]}, perX{batch_.scalarPerX[j]}, perY{batch_.scalarPerY[j]},
-            perRho{batch_.scalarPerRho[j]}, low{batch_.scalarLow[j]}, high{batch_.scalarHigh[j]};
+            perInverseDepth{batch_.scalarPerInverseDepth[j]}, low{batch_.scalarLow[j]}, high{batch_.scalarHigh[j]};
         block.rayLength = rayLength;
         real across(0.0f);
         if (!frame_.orthographic) across = perX * dx + perY * dy;
@@ -227,42 +230,42 @@ private:
             segments.length = keep(live, segments.length);
             segments.back = select(live, segments.back, segments.front);
         } else if (HWY_UNLIKELY(frame_.orthographic)) {
-            segments.front = scalarOrthographic(scalar, perX, perY, perRho, dx, dy, in, low, high);
-            segments.back = scalarOrthographic(scalar, perX, perY, perRho, dx, dy, out, low, high);
+            segments.front = scalarOrthographic(scalar, perX, perY, perInverseDepth, dx, dy, in, low, high);
+            segments.back = scalarOrthographic(scalar, perX, perY, perInverseDepth, dx, dy, out, low, high);
             segments.length = segmentLengthOrthographic(scale, in, out);
         } else {
             const real towardsIn = real(1.0f) + in, towardsOut = real(1.0f) + out;
             const real inverse = reciprocal(towardsIn * towardsOut);
             const real ratioIn = inverse * towardsOut, ratioOut = inverse * towardsIn;
-            segments.front = scalarOfRatio(scalar, across, perRho, in, ratioIn, low, high);
-            segments.back = scalarOfRatio(scalar, across, perRho, out, ratioOut, low, high);
+            segments.front = scalarOfRatio(scalar, across, perInverseDepth, in, ratioIn, low, high);
+            segments.back = scalarOfRatio(scalar, across, perInverseDepth, out, ratioOut, low, high);
             segments.length = segmentLengthOfRatios(scale, in, out, ratioIn, ratioOut, rayLength);
         }
         if constexpr (colors || Kind == TileKind::Depth) checkOrder(j, at, live, in, out, segments);
 
         if constexpr (Kind == TileKind::Composite) {
-            ColorSink sink{loadAt(px_.r + at), loadAt(px_.g + at), loadAt(px_.b + at), t};
-            if constexpr (look == Look::General)
-                integrate(first, last, segments, sink);
+            ColorAccumulator accumulator{loadAt(px_.r + at), loadAt(px_.g + at), loadAt(px_.b + at), t};
+            if constexpr (variant == ShadingVariant::General)
+                integrate(first, last, segments, accumulator);
             else
-                integrateLooked<shows>(block, scalarFall(across, perRho), first, last, segments, sink);
-            storeAt(sink.r, px_.r + at);
-            storeAt(sink.g, px_.g + at);
-            storeAt(sink.b, px_.b + at);
-            storeAt(sink.t, px_.t + at);
+                integrateVariant<shows>(block, scalarFall(across, perInverseDepth), first, last, segments, accumulator);
+            storeAt(accumulator.r, px_.r + at);
+            storeAt(accumulator.g, px_.g + at);
+            storeAt(accumulator.b, px_.b + at);
+            storeAt(accumulator.t, px_.t + at);
         } else if constexpr (Kind == TileKind::Absorption) {
-            if constexpr (Limited) {
+            if constexpr (Clipped) {
                 drawDepth(block, t, first, last, segments);
-            } else if constexpr (look == Look::Silhouettes) {
-                BlockLook pixels;
-                pixels.fall = scalarFall(across, perRho);
+            } else if constexpr (variant == ShadingVariant::Silhouettes) {
+                BlockVariant pixels;
+                pixels.fall = scalarFall(across, perInverseDepth);
                 pixels.rayLength = rayLength;
-                storeAt(enhancedDepth<ScaleInvariant>(*frame_.transfer, look_, pixels, first, last, segments, t),
+                storeAt(enhancedDepth<ScaleInvariant>(*frame_.transfer, variant_, pixels, first, last, segments, t),
                         px_.t + at);
             } else {
-                DepthSink sink{t};
-                integrate(first, last, segments, sink);
-                storeAt(sink.depth, px_.t + at);
+                DepthAccumulator accumulator{t};
+                integrate(first, last, segments, accumulator);
+                storeAt(accumulator.depth, px_.t + at);
             }
         } else if constexpr (Kind == TileKind::Additive) {
             drawAdditive(block, t, first, last, segments);
@@ -281,43 +284,45 @@ private:
         }
     }
 
-    template <class Sink>
-    HWY_INLINE void integrate(std::size_t first, std::size_t last, const Segments& segments, Sink& sink) const {
-        addAlong<ScaleInvariant>(*frame_.transfer, first, last, segments, sink);
+    template <class Accumulator>
+    HWY_INLINE void integrate(std::size_t first, std::size_t last, const Segments& segments,
+                              Accumulator& accumulator) const {
+        addAlong<ScaleInvariant>(*frame_.transfer, first, last, segments, accumulator);
     }
 
     template <CellShows shows>
-    HWY_INLINE void integrateLooked(const Block& block, real fall, std::size_t first, std::size_t last,
-                                    const Segments& segments, ColorSink& sink) const {
-        BlockLook pixels;
+    HWY_INLINE void integrateVariant(const Block& block, real fall, std::size_t first, std::size_t last,
+                                     const Segments& segments, ColorAccumulator& accumulator) const {
+        BlockVariant pixels;
         pixels.fall = fall;
         pixels.rayLength = block.rayLength;
         pixels.inverse = loadAt(px_.inverseLength + block.at);
-        if constexpr (look != Look::Silhouettes) {
+        if constexpr (variant != ShadingVariant::Silhouettes) {
             const vec3 direction = perDepth(block.x, block.y);
             const real sideways(frame_.orthographic ? 0.0f : 1.0f);
             pixels.x = sideways * direction.x;
             pixels.y = sideways * direction.y;
         }
-        if constexpr (look == Look::Lamps) {
-            if (frame_.look.places) pixels.place = middlePlace(block);
+        if constexpr (variant == ShadingVariant::LocalLights) {
+            if (frame_.variant.places) pixels.place = middlePlace(block);
         }
-        LookedSegments<look, ScaleInvariant, Peaks, shows>{frame_, peakLooks_, look_, pixels, segments}.add(first, last,
-                                                                                                            sink);
+        VariantSegments<variant, ScaleInvariant, Isosurfaces, shows>{frame_, preparedIsosurfaces_, variant_, pixels,
+                                                                     segments}
+            .add(first, last, accumulator);
     }
 
     HWY_INLINE void drawShaded(const Block& block, real t, std::size_t first, std::size_t last,
                                const Segments& segments) {
         const std::size_t at = block.at;
-        std::conditional_t<Limited, ScaledSegmentSink, SegmentSink> sink;
-        sink.begin();
-        if constexpr (Limited)
-            classified(block, first, last, segments, loadAt(limits_.scale + block.at)).gather(sink);
+        std::conditional_t<Clipped, ScaledSegmentAccumulator, SegmentAccumulator> accumulator;
+        accumulator.begin();
+        if constexpr (Clipped)
+            classified(block, first, last, segments, loadAt(limits_.scale + block.at)).gather(accumulator);
         else if (ScaleInvariant && frame_.shading->silhouette)
-            classified(block, first, last, segments, real(1.0f)).integrate(real(1.0f), sink);
+            classified(block, first, last, segments, real(1.0f)).integrate(real(1.0f), accumulator);
         else
-            integrate(first, last, segments, sink);
-        const ShadedSegment shaded = shade(block, sink, segments);
+            integrate(first, last, segments, accumulator);
+        const ShadedSegment shaded = shade(block, accumulator, segments);
         if constexpr (Kind == TileKind::FirstHit) {
             const mask hit = both(segments.live, shaded.opacity > real(0.0f));
             storeAt(select(hit, shaded.r, loadAt(px_.r + at)), px_.r + at);
@@ -333,42 +338,47 @@ private:
         }
     }
 
-    HWY_INLINE ShadedSegment shade(const Block& block, const SegmentSink& sink, const Segments& segments) {
+    HWY_INLINE ShadedSegment shade(const Block& block, const SegmentAccumulator& accumulator,
+                                   const Segments& segments) {
         vec3 towards(real(0.0f), real(0.0f), real(1.0f));
         if (!frame_.orthographic) towards = reciprocal(block.rayLength) * perDepth(block.x, block.y);
         const auto middles = [&]() HWY_ATTR {
             return segmentMiddles(block.dx, block.dy, block.in, block.out, frame_.orthographic);
         };
         const auto place = [&]() HWY_ATTR { return middlePlace(block); };
-        ShadedSegment shaded = shadeAs(block, sink, segments, towards, middles, place);
+        ShadedSegment shaded = shadeAs(block, accumulator, segments, towards, middles, place);
         if (HWY_UNLIKELY(frame_.shading->depthColor.has_value()))
             colorByDepth(frame_, distanceBeyond(block.x, block.y, middleBeyond(block), block.rayLength), shaded);
         return shaded;
     }
 
     template <class Middles, class Place>
-    HWY_INLINE ShadedSegment shadeAs(const Block& block, const SegmentSink& sink, const Segments& segments,
-                                     vec3 towards, const Middles& middles, const Place& place) {
+    HWY_INLINE ShadedSegment shadeAs(const Block& block, const SegmentAccumulator& accumulator,
+                                     const Segments& segments, vec3 towards, const Middles& middles,
+                                     const Place& place) {
         const std::size_t j = block.j;
         const real fall = cellFall(batch_, block.j, block.dx, block.dy, frame_.orthographic);
-        if constexpr (Limited) {
+        if constexpr (Clipped) {
             const vec3 normal(loadAt(limits_.normal[0] + block.at), loadAt(limits_.normal[1] + block.at),
                               loadAt(limits_.normal[2] + block.at));
             const vec3* cut = block.inCutLayer ? &normal : nullptr;
-            return frame_.scaleInvariant
-                       ? shadeSegment<true>(frame_, batch_, j, sink, segments, fall, towards, middles, place, cut)
-                       : shadeSegment<false>(frame_, batch_, j, sink, segments, fall, towards, middles, place, cut);
+            return frame_.scaleInvariant ? shadeSegment<true>(frame_, batch_, j, accumulator, segments, fall, towards,
+                                                              middles, place, cut)
+                                         : shadeSegment<false>(frame_, batch_, j, accumulator, segments, fall, towards,
+                                                               middles, place, cut);
         } else {
-            return shadeSegment<ScaleInvariant>(frame_, batch_, j, sink, segments, fall, towards, middles, place);
+            return shadeSegment<ScaleInvariant>(frame_, batch_, j, accumulator, segments, fall, towards, middles,
+                                                place);
         }
     }
 
-    /// How much deeper than TileFrame::depthReference rays are at rho, scene lengths: from nearness, which holds it
-    /// however far the eye is.
-    HWY_INLINE real depthBeyond(std::size_t j, real rho) const {
-        const real nearness = real(batch_.nearness[j]) + real(batch_.nearnessPerRho[j]) * rho;
-        if (frame_.orthographic) return -nearness;
-        return real(-frame_.depthReference) * nearness * reciprocal(real(1.0f) + nearness);
+    /// How much deeper than TileFrame::depthReference rays are at inverseDepth, scene lengths: from inverse depth,
+    /// which holds it however far the eye is.
+    HWY_INLINE real depthBeyond(std::size_t j, real inverseDepth) const {
+        const real rayInverseDepth =
+            real(batch_.rayInverseDepth[j]) + real(batch_.rayPerInverseDepth[j]) * inverseDepth;
+        if (frame_.orthographic) return -rayInverseDepth;
+        return real(-frame_.depthReference) * rayInverseDepth * reciprocal(real(1.0f) + rayInverseDepth);
     }
     HWY_INLINE real middleBeyond(const Block& block) const {
         return real(0.5f) * (depthBeyond(block.j, block.in) + depthBeyond(block.j, block.out));
@@ -399,14 +409,14 @@ private:
                 real(1.0f)};
     }
 
-    HWY_INLINE real rhoOfNearness(std::size_t j, real nearness) const {
-        return (nearness - real(batch_.nearness[j])) * real(1.0f / batch_.nearnessPerRho[j]);
+    HWY_INLINE real inverseDepthOfRay(std::size_t j, real rayInverseDepth) const {
+        return (rayInverseDepth - real(batch_.rayInverseDepth[j])) * real(1.0f / batch_.rayPerInverseDepth[j]);
     }
 
     /// Cuts the interval by the pixels' limits.
     HWY_INLINE void limit(std::size_t j, std::size_t at, real& in, real& out) const {
-        out = max(out, rhoOfNearness(j, loadAt(limits_.farthest + at)));
-        in = min(in, rhoOfNearness(j, loadAt(limits_.nearest + at)));
+        out = max(out, inverseDepthOfRay(j, loadAt(limits_.farthest + at)));
+        in = min(in, inverseDepthOfRay(j, loadAt(limits_.nearest + at)));
     }
 
     HWY_INLINE ClassifiedSegments classified(const Block& block, std::size_t first, std::size_t last,
@@ -420,15 +430,15 @@ private:
         const std::size_t at = block.at;
         const auto shown = classified(block, first, last, segments, loadAt(limits_.scale + block.at));
         if (!frame_.shading->needsGradient() && !frame_.contributions.perCell) {
-            ScaledDepthSink sink{{t}, shown.scale};
-            shown.integrate(shown.scale, sink);
-            storeAt(sink.depth, px_.t + at);
+            ScaledDepthAccumulator accumulator{{t}, shown.scale};
+            shown.integrate(shown.scale, accumulator);
+            storeAt(accumulator.depth, px_.t + at);
             return;
         }
-        ScaledSegmentSink sink;
-        sink.begin();
-        shown.gather(sink);
-        const ShadedSegment shaded = shade(block, sink, segments);
+        ScaledSegmentAccumulator accumulator;
+        accumulator.begin();
+        shown.gather(accumulator);
+        const ShadedSegment shaded = shade(block, accumulator, segments);
         storeAt(t + keep(segments.live, shaded.depth), px_.t + at);
     }
 
@@ -436,16 +446,18 @@ private:
     HWY_INLINE void drawAdditive(const Block& block, real t, std::size_t first, std::size_t last,
                                  const Segments& segments) {
         const std::size_t at = block.at;
-        const EmissionSink sink = classified(block, first, last, segments, loadAt(limits_.scale + block.at)).emission();
-        real r = sink.r, g = sink.g, b = sink.b, depth = sink.smoothDepth + sink.otherDepth;
+        const EmissionAccumulator accumulator =
+            classified(block, first, last, segments, loadAt(limits_.scale + block.at)).emission();
+        real r = accumulator.r, g = accumulator.g, b = accumulator.b,
+             depth = accumulator.smoothDepth + accumulator.otherDepth;
         if (frame_.shading->needsGradient()) {
-            SegmentSink whole;
+            SegmentAccumulator whole;
             whole.r = r;
             whole.g = g;
             whole.b = b;
             whole.opacity = depth;  // what the colour is to be divided by
-            whole.smoothDepth = sink.smoothDepth;
-            whole.otherDepth = sink.otherDepth;
+            whole.smoothDepth = accumulator.smoothDepth;
+            whole.otherDepth = accumulator.otherDepth;
             const ShadedSegment shaded = shade(block, whole, segments);
             depth = shaded.depth;
             r = shaded.r * depth;
@@ -474,24 +486,24 @@ private:
 
     /// Cells along a ray do not overlap, so in the right order each segment begins where the last one ended, or behind
     /// it. One that lies out of order begins nearer than that by at least its own length. An eighth of that length and
-    /// the rounding of nearness (the batch's tolerance: 1e-6 of the mesh and what the cell's own numbers carry) are
-    /// allowed for: slivers and faces seen edge-on round by more than they are long, and do not show.
+    /// the rounding of inverse depth (the batch's tolerance: 1e-6 of the mesh and what the cell's own numbers carry)
+    /// are allowed for: slivers and faces seen edge-on round by more than they are long, and do not show.
     HWY_INLINE void checkOrder(std::size_t j, std::size_t at, mask live, real in, real out, Segments& segments) {
         const real last = loadAt(px_.last + at);
-        const real perRho(batch_.nearnessPerRho[j]);
+        const real perInverseDepth(batch_.rayPerInverseDepth[j]);
         const real inner = in - real(0.125f) * (in - out);
-        const mask early = real(batch_.nearnessChecked[j]) + perRho * inner > last;
-        if constexpr (Peaks) {
+        const mask early = real(batch_.rayInverseDepthChecked[j]) + perInverseDepth * inner > last;
+        if constexpr (Isosurfaces) {
             // one number for both cells of a face, so that an isosurface there is crossed exactly once
             const real before = loadAt(px_.lastScalar + at);
-            const real gap = abs(real(batch_.nearness[j]) + perRho * in - last);
-            const real slack = real(batch_.nearness[j] - batch_.nearnessChecked[j]) * real(4.0f);
+            const real gap = abs(real(batch_.rayInverseDepth[j]) + perInverseDepth * in - last);
+            const real slack = real(batch_.rayInverseDepth[j] - batch_.rayInverseDepthChecked[j]) * real(4.0f);
             const mask joined = both(live, both(gap < slack, abs(before - segments.front) < real(scalarRounding)));
             segments.front = select(joined, before, segments.front);
             storeAt(select(live, segments.back, before), px_.lastScalar + at);
         }
-        const real end = real(batch_.nearness[j]) + perRho * out;
-        storeAt(select(live, select(early, real(doubtful), end), last), px_.last + at);
+        const real end = real(batch_.rayInverseDepth[j]) + perInverseDepth * out;
+        storeAt(select(live, select(early, real(uncertain), end), last), px_.last + at);
     }
 
     const TileFrame& frame_;
@@ -500,18 +512,19 @@ private:
     real laneX_, laneY_;
     bool layered_ = false;  // cuts have layers that show
     CellBatch batch_;
-    CellLook look_;
-    PeakLooks peakLooks_;
+    CellVariant variant_;
+    PreparedIsosurfaces preparedIsosurfaces_;
     TileRays rays_;
     TileBuffers px_;
     struct NoLimits {};
-    std::conditional_t<Limited, LimitBuffers<tilePixels>, NoLimits> limits_;
+    std::conditional_t<Clipped, LimitBuffers<tilePixels>, NoLimits> limits_;
 };
 
-template <TileKind Kind, bool ScaleInvariant, bool Peaks, bool Limited = false, Look look = Look::General>
+template <TileKind Kind, bool ScaleInvariant, bool Isosurfaces, bool Clipped = false,
+          ShadingVariant variant = ShadingVariant::General>
 void drawTileAs(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
                 TileResult& result) {
-    TileDrawing<Kind, ScaleInvariant, Peaks, Limited, look> drawing(frame, x0, y0, result);
+    TileDrawing<Kind, ScaleInvariant, Isosurfaces, Clipped, variant> drawing(frame, x0, y0, result);
     drawing.draw(entries);
     drawing.resolve(image);
 }

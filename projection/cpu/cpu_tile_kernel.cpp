@@ -13,44 +13,47 @@
 HWY_BEFORE_NAMESPACE();
 namespace tetralux::projection::HWY_NAMESPACE {
 
-template <TileKind Kind, Look look, bool ScaleInvariant>
+template <TileKind Kind, ShadingVariant variant, bool ScaleInvariant>
 void drawTileOf(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
                 TileResult& result) {
     constexpr bool depthOnly = Kind == TileKind::Absorption;  // quick enough where isosurfaces are looked for in vain
-    if (depthOnly || !frame.transfer->peaks().empty())
-        drawTileAs<Kind, ScaleInvariant, true, false, look>(frame, x0, y0, entries, image, result);
+    if (depthOnly || !frame.transfer->isosurfaces().empty())
+        drawTileAs<Kind, ScaleInvariant, true, false, variant>(frame, x0, y0, entries, image, result);
     else
-        drawTileAs<Kind, ScaleInvariant, depthOnly, false, look>(frame, x0, y0, entries, image, result);
+        drawTileAs<Kind, ScaleInvariant, depthOnly, false, variant>(frame, x0, y0, entries, image, result);
 }
 
-template <TileKind Kind, Look look>
-void drawLookedTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
-                    TileResult& result) {
+template <TileKind Kind, ShadingVariant variant>
+void drawVariantTile(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
+                     TileResult& result) {
     if (frame.scaleInvariant)
-        drawTileOf<Kind, look, true>(frame, x0, y0, entries, image, result);
+        drawTileOf<Kind, variant, true>(frame, x0, y0, entries, image, result);
     else
-        drawTileOf<Kind, look, false>(frame, x0, y0, entries, image, result);
+        drawTileOf<Kind, variant, false>(frame, x0, y0, entries, image, result);
 }
 
 void drawTileHere(const TileFrame& frame, int x0, int y0, std::span<const TileEntry> entries, Image& image,
                   TileResult& result) {
     if (frame.kind == TileKind::Absorption) {
-        if (frame.look.silhouettes)
-            return drawLookedTile<TileKind::Absorption, Look::Silhouettes>(frame, x0, y0, entries, image, result);
-        return drawLookedTile<TileKind::Absorption, Look::General>(frame, x0, y0, entries, image, result);
+        if (frame.variant.silhouettes)
+            return drawVariantTile<TileKind::Absorption, ShadingVariant::Silhouettes>(frame, x0, y0, entries, image,
+                                                                                      result);
+        return drawVariantTile<TileKind::Absorption, ShadingVariant::General>(frame, x0, y0, entries, image, result);
     }
     if (frame.kind == TileKind::FirstHit)
         return drawTileAs<TileKind::FirstHit, false, true>(frame, x0, y0, entries, image, result);
     if (frame.kind == TileKind::Composite)
-        return drawLookedTile<TileKind::Composite, Look::General>(frame, x0, y0, entries, image, result);
-    switch (frame.look.look) {
-        case Look::Silhouettes:
-            return drawLookedTile<TileKind::Composite, Look::Silhouettes>(frame, x0, y0, entries, image, result);
-        case Look::Lit:
-            return drawLookedTile<TileKind::Composite, Look::Lit>(frame, x0, y0, entries, image, result);
-        case Look::Lamps:
-            return drawLookedTile<TileKind::Composite, Look::Lamps>(frame, x0, y0, entries, image, result);
-        case Look::General:
+        return drawVariantTile<TileKind::Composite, ShadingVariant::General>(frame, x0, y0, entries, image, result);
+    switch (frame.variant.variant) {
+        case ShadingVariant::Silhouettes:
+            return drawVariantTile<TileKind::Composite, ShadingVariant::Silhouettes>(frame, x0, y0, entries, image,
+                                                                                     result);
+        case ShadingVariant::Lit:
+            return drawVariantTile<TileKind::Composite, ShadingVariant::Lit>(frame, x0, y0, entries, image, result);
+        case ShadingVariant::LocalLights:
+            return drawVariantTile<TileKind::Composite, ShadingVariant::LocalLights>(frame, x0, y0, entries, image,
+                                                                                     result);
+        case ShadingVariant::General:
             if (frame.scaleInvariant)
                 drawTileAs<TileKind::Shaded, true, true>(frame, x0, y0, entries, image, result);
             else

@@ -15,7 +15,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// So many nodes are walked along as they are; a run is no longer than that.
 constexpr std::size_t fewNodes = 64, longestRun = 64;
-constexpr double largestPeakDepth = 1e4;
+constexpr double largestIsosurfaceDepth = 1e4;
 /// Of a colour's channel, for TransferPiece::fine: then V's error of D³/16 at D = 1/10 changes a piece by 1e-6.
 constexpr double largestFineChange = 0.04;
 
@@ -120,12 +120,12 @@ std::vector<TransferNode> nodesAt(const preint::TransferFunction& function, cons
 CpuTransfer::CpuTransfer(const preint::TransferFunction& function, double tolerance) : function_(function) {
     for (const auto& surface : function.isosurfaces) {
         if (!(surface.opacity > 0)) continue;
-        const double depth = std::min(-std::log1p(-surface.opacity), largestPeakDepth);
-        peaks_.push_back({static_cast<float>(surface.value),
-                          static_cast<float>(surface.opacity),
-                          static_cast<float>(depth),
-                          {static_cast<float>(surface.color.x), static_cast<float>(surface.color.y),
-                           static_cast<float>(surface.color.z)}});
+        const double depth = std::min(-std::log1p(-surface.opacity), largestIsosurfaceDepth);
+        isosurfaces_.push_back({static_cast<float>(surface.value),
+                                static_cast<float>(surface.opacity),
+                                static_cast<float>(depth),
+                                {static_cast<float>(surface.color.x), static_cast<float>(surface.color.y),
+                                 static_cast<float>(surface.color.z)}});
     }
     std::vector<double> breaks;
     for (const auto& node : function.color) breaks.push_back(node.scalar);
@@ -154,18 +154,19 @@ CpuTransfer::CpuTransfer(const preint::TransferFunction& function, double tolera
     addPiece(function, low, infinity);
 
     for (auto& piece : pieces_) {
-        const auto range =
-            std::equal_range(peaks_.begin(), peaks_.end(), TransferPeak{piece.high, 0, 0, {}},
-                             [](const TransferPeak& a, const TransferPeak& b) { return a.value < b.value; });
-        piece.peakBegin = static_cast<std::uint32_t>(range.first - peaks_.begin());
-        piece.peakEnd = static_cast<std::uint32_t>(range.second - peaks_.begin());
+        const auto range = std::equal_range(
+            isosurfaces_.begin(), isosurfaces_.end(), TransferIsosurface{piece.high, 0, 0, {}},
+            [](const TransferIsosurface& a, const TransferIsosurface& b) { return a.value < b.value; });
+        piece.isosurfaceBegin = static_cast<std::uint32_t>(range.first - isosurfaces_.begin());
+        piece.isosurfaceEnd = static_cast<std::uint32_t>(range.second - isosurfaces_.begin());
     }
     std::vector<TransferPiece> merged;
     for (const auto& piece : pieces_) {
-        if (!merged.empty() && merged.back().peakBegin == merged.back().peakEnd && sameLine(merged.back(), piece)) {
+        if (!merged.empty() && merged.back().isosurfaceBegin == merged.back().isosurfaceEnd &&
+            sameLine(merged.back(), piece)) {
             merged.back().high = piece.high;
-            merged.back().peakBegin = piece.peakBegin;
-            merged.back().peakEnd = piece.peakEnd;
+            merged.back().isosurfaceBegin = piece.isosurfaceBegin;
+            merged.back().isosurfaceEnd = piece.isosurfaceEnd;
         } else {
             merged.push_back(piece);
         }

@@ -14,18 +14,18 @@
 
 namespace tetralux::projection {
 
-/// Scalars low ≤ s < high (scene units) on which colour and extinction are linear, given about `origin`: the end at which
-/// extinction is less.
+/// Scalars low ≤ s < high (scene units) on which colour and extinction are linear, given about `origin`: the end at
+/// which extinction is less.
 struct TransferPiece {
     float low, high, origin;
     float extinction, extinctionSlope;  ///< per scene length, or per unit of scalar (scale-invariant)
     float color[3], colorSlope[3];
-    bool visible;                      ///< has extinction
-    bool fine;                         ///< the colour changes so little that V need not be known well (cpu_piece.glsl)
-    std::uint32_t peakBegin, peakEnd;  ///< isosurfaces at `high`
+    bool visible;  ///< has extinction
+    bool fine;     ///< the colour changes so little that V need not be known well (cpu_piece.glsl)
+    std::uint32_t isosurfaceBegin, isosurfaceEnd;  ///< isosurfaces at `high`
 };
 
-struct TransferPeak {
+struct TransferIsosurface {
     float value, opacity, depth;  ///< depth = −ln(1 − opacity), at most 1e4
     float color[3];
 };
@@ -44,7 +44,7 @@ public:
     explicit CpuTransfer(const preint::TransferFunction& function, double tolerance = 0.0);
 
     const std::vector<TransferPiece>& pieces() const { return pieces_; }
-    const std::vector<TransferPeak>& peaks() const { return peaks_; }
+    const std::vector<TransferIsosurface>& isosurfaces() const { return isosurfaces_; }
 
     /// The piece with low ≤ s < high, or low < s ≤ high.
     std::size_t pieceFromAbove(float s) const {
@@ -72,7 +72,7 @@ private:
 
     preint::TransferFunction function_;
     std::vector<TransferPiece> pieces_;
-    std::vector<TransferPeak> peaks_;
+    std::vector<TransferIsosurface> isosurfaces_;
     std::vector<float> ends_;                // −∞, where each piece but the first begins, ∞
     std::vector<std::uint32_t> firstPiece_;  // by equal steps over [0, 1]
     bool constantColor_ = false;

@@ -5,21 +5,21 @@
 /// pixel. Included once per instruction set.
 ///
 /// - 1/|n·d| of Equation 15 is |g|·|z_c|·|ray per depth|/|scalarFall|, where all but the last two belong to the cell.
-/// - A segment's light is C·A + α·B (cpu_lamps.h).
+/// - A segment's light is C·A + α·B (cpu_local_lights.h).
 #include <projection/cpu/cpu_segment.h>
 
 #include <cmath>
 
-#include <projection/cpu/cpu_lamps.h>
-#include <projection/cpu/cpu_peak_look.h>
+#include <projection/cpu/cpu_isosurface_variant.h>
+#include <projection/cpu/cpu_local_lights.h>
 #include <projection/cpu/cpu_special_cell.h>
 #include <projection/cpu/cpu_tile.h>
 
-#if defined(TETRALUX_CPU_LOOK_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef TETRALUX_CPU_LOOK_H
-#undef TETRALUX_CPU_LOOK_H
+#if defined(TETRALUX_CPU_VARIANT_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TETRALUX_CPU_VARIANT_H
+#undef TETRALUX_CPU_VARIANT_H
 #else
-#define TETRALUX_CPU_LOOK_H
+#define TETRALUX_CPU_VARIANT_H
 #endif
 
 HWY_BEFORE_NAMESPACE();
@@ -33,7 +33,7 @@ HWY_INLINE real anyOpacity(real depth) {
 }
 
 /// 1/|n·d|, finite. Gradients of any size: what is bounded is a share of theirs.
-HWY_INLINE real silhouetteFactor(const CellLook& cell, const BlockLook& block) {
+HWY_INLINE real silhouetteFactor(const CellVariant& cell, const BlockVariant& block) {
     return block.rayLength * reciprocal(max(abs(block.fall * real(cell.perSteepness)), real(1e-18f)));
 }
 
@@ -42,13 +42,13 @@ HWY_INLINE real silhouetteFactor(const CellLook& cell, const BlockLook& block) {
 constexpr float cosineRounding = 2e-7f, largestSilhouetteError = 1e-4f;
 
 /// Rays so nearly along level sets that the former may come to more than the latter.
-HWY_INLINE mask grazes(const CellLook& cell, const BlockLook& block, mask live) {
+HWY_INLINE mask grazes(const CellVariant& cell, const BlockVariant& block, mask live) {
     const real steepness = abs(block.fall * real(cell.perSteepness));
     return both(live, steepness * real(largestSilhouetteError / cosineRounding) < block.rayLength);
 }
 
 /// `after`: optical depth behind a segment, `before` it; no number where silhouettes make it err.
-HWY_INLINE real vouchedDepth(const CellLook& cell, const BlockLook& block, mask live, real before, real after) {
+HWY_INLINE real vouchedDepth(const CellVariant& cell, const BlockVariant& block, mask live, real before, real after) {
     const mask grazing = grazes(cell, block, live);
     if (HWY_LIKELY(none(grazing))) return after;
     const real error = (after - before) * exp(-min(after, real(80.0f))) * silhouetteFactor(cell, block);
@@ -56,7 +56,8 @@ HWY_INLINE real vouchedDepth(const CellLook& cell, const BlockLook& block, mask 
 }
 
 /// The same of transmittance.
-HWY_INLINE real vouchedTransmittance(const CellLook& cell, const BlockLook& block, mask live, real before, real after) {
+HWY_INLINE real vouchedTransmittance(const CellVariant& cell, const BlockVariant& block, mask live, real before,
+                                     real after) {
     const mask grazing = grazes(cell, block, live);
     if (HWY_LIKELY(none(grazing))) return after;
     const real left = after / max(before, real(1e-30f)), absorbedShare = real(1.0f) - left;
@@ -66,15 +67,15 @@ HWY_INLINE real vouchedTransmittance(const CellLook& cell, const BlockLook& bloc
 }
 
 /// Optical depth alone, with silhouettes: isosurfaces by 1/|n·d|, what lies between over paths that hold it already.
-struct EnhancedDepthSink {
+struct EnhancedDepthAccumulator {
     static constexpr bool depthOnly = true;
-    const CellLook& cell;
-    const BlockLook& block;
+    const CellVariant& cell;
+    const BlockVariant& block;
     real depth;
 
-    HWY_INLINE void addPeak(const TransferPeak& peak, mask crossed) {
+    HWY_INLINE void addIsosurface(const TransferIsosurface& isosurface, mask crossed) {
         const real factor = cell.gradient > 0 ? silhouetteFactor(cell, block) : real(1.0f);
-        depth = depth + keep(crossed, real(peak.depth) * factor);
+        depth = depth + keep(crossed, real(isosurface.depth) * factor);
     }
     HWY_INLINE void addDepth(real more) { depth = depth + more; }
 };
@@ -82,60 +83,64 @@ struct EnhancedDepthSink {
 /// The depth of one block's segments with silhouettes, behind `depth`: either integral is the standard one over another
 /// path.
 template <bool ScaleInvariant>
-HWY_INLINE real enhancedDepth(const CpuTransfer& transfer, const CellLook& cell, const BlockLook& block,
+HWY_INLINE real enhancedDepth(const CpuTransfer& transfer, const CellVariant& cell, const BlockVariant& block,
                               std::size_t first, std::size_t last, const Segments& segments, real depth) {
     Segments longer = segments;
     if (!ScaleInvariant && cell.gradient > 0) longer.length = segments.length * silhouetteFactor(cell, block);
-    EnhancedDepthSink sink{cell, block, depth};
-    addAlong<false>(transfer, first, last, longer, sink);
-    if (ScaleInvariant || !(cell.gradient > 0)) return sink.depth;
-    return vouchedDepth(cell, block, segments.live, depth, sink.depth);
+    EnhancedDepthAccumulator accumulator{cell, block, depth};
+    addAlong<false>(transfer, first, last, longer, accumulator);
+    if (ScaleInvariant || !(cell.gradient > 0)) return accumulator.depth;
+    return vouchedDepth(cell, block, segments.live, depth, accumulator.depth);
 }
 
-/// Segments of one block with a look, composited into `sink`.
-template <Look look, bool ScaleInvariant, bool Peaks, CellShows shows>
-struct LookedSegments {
-    static constexpr bool Lit = look != Look::Silhouettes;
+/// Segments of one block with a variant, composited into `accumulator`.
+template <ShadingVariant variant, bool ScaleInvariant, bool Isosurfaces, CellShows shows>
+struct VariantSegments {
+    static constexpr bool Lit = variant != ShadingVariant::Silhouettes;
     const TileFrame& frame;
-    const PeakLooks& peaks;
-    const CellLook& cell;
-    const BlockLook& block;
+    const PreparedIsosurfaces& isosurfaces;
+    const CellVariant& cell;
+    const BlockVariant& block;
     const Segments& segments;
 
     HWY_INLINE bool silhouettes() const {
-        return shows != CellShows::Anything || ((!Lit || frame.look.silhouettes) && cell.gradient > 0);
+        return shows != CellShows::Anything || ((!Lit || frame.variant.silhouettes) && cell.gradient > 0);
     }
     /// Without a gradient the scale-invariant integral shows nothing within a piece, one way or the other.
     HWY_INLINE bool silhouettesWithin() const {
-        return (ScaleInvariant && (!Lit || frame.look.silhouettes)) || silhouettes();
+        return (ScaleInvariant && (!Lit || frame.variant.silhouettes)) || silhouettes();
     }
 
-    HWY_INLINE void add(std::size_t first, std::size_t last, ColorSink& sink) const {
-        const real before = sink.t;
-        addSegments(first, last, sink);
-        if (!ScaleInvariant && silhouettes()) sink.t = vouchedTransmittance(cell, block, segments.live, before, sink.t);
+    HWY_INLINE void add(std::size_t first, std::size_t last, ColorAccumulator& accumulator) const {
+        const real before = accumulator.t;
+        addSegments(first, last, accumulator);
+        if (!ScaleInvariant && silhouettes())
+            accumulator.t = vouchedTransmittance(cell, block, segments.live, before, accumulator.t);
     }
 
 private:
-    HWY_INLINE void addSegments(std::size_t first, std::size_t last, ColorSink& sink) const {
-        if constexpr (shows == CellShows::NarrowPeak || shows == CellShows::WidePeak)
-            return addOnlyPeak(*peaks.peak[cell.j], sink);
+    HWY_INLINE void addSegments(std::size_t first, std::size_t last, ColorAccumulator& accumulator) const {
+        if constexpr (shows == CellShows::NarrowIsosurface || shows == CellShows::WideIsosurface)
+            return addOnlyIsosurface(*isosurfaces.isosurface[cell.j], accumulator);
         const CpuTransfer& transfer = *frame.transfer;
-        if constexpr (shows == CellShows::VeiledPeak) {
-            if (HWY_LIKELY(addVeiledPeak(transfer.pieces()[first], transfer.pieces()[last], *peaks.peak[cell.j], sink)))
+        if constexpr (shows == CellShows::IsosurfaceInMedium) {
+            if (HWY_LIKELY(addIsosurfaceInMedium(transfer.pieces()[first], transfer.pieces()[last],
+                                                 *isosurfaces.isosurface[cell.j], accumulator)))
                 return;
-            return addAny(first, last, sink);
+            return addAny(first, last, accumulator);
         }
-        if (first == last && (!transfer.pieces()[first].visible || addThin(transfer.pieces()[first], sink))) return;
-        if constexpr (Peaks) {
-            if (const TransferPeak* peak = peaks.onlyPeak(cell.j)) return addOnlyPeak(*peak, sink);
+        if (first == last && (!transfer.pieces()[first].visible || addThin(transfer.pieces()[first], accumulator)))
+            return;
+        if constexpr (Isosurfaces) {
+            if (const TransferIsosurface* isosurface = isosurfaces.onlyIsosurface(cell.j))
+                return addOnlyIsosurface(*isosurface, accumulator);
         }
-        addAny(first, last, sink);
+        addAny(first, last, accumulator);
     }
 
 private:
-    HWY_INLINE void addAny(std::size_t first, std::size_t last, ColorSink& sink) const {
-        SegmentSink whole;
+    HWY_INLINE void addAny(std::size_t first, std::size_t last, ColorAccumulator& accumulator) const {
+        SegmentAccumulator whole;
         whole.begin();
         if (ScaleInvariant && silhouettes()) {
             Segments varied = segments;
@@ -144,11 +149,11 @@ private:
         } else {
             addAlong<ScaleInvariant>(*frame.transfer, first, last, segments, whole);
         }
-        addWhole(whole, sink);
+        addWhole(whole, accumulator);
     }
 
     /// Segments within one piece, thin before silhouettes; false if some are not.
-    HWY_INLINE bool addThin(const TransferPiece& piece, ColorSink& sink) const {
+    HWY_INLINE bool addThin(const TransferPiece& piece, ColorAccumulator& accumulator) const {
         const real half = real(0.5f) * (segments.back - segments.front);
         const real middle = segments.front + half - real(piece.origin);
         const real path = ScaleInvariant ? abs(half + half) : segments.length;
@@ -177,47 +182,48 @@ private:
         }
         const real weighted = middle * opacity + skew;
         if constexpr (Lit)
-            addLit(piece, opacity, weighted, sink);
+            addLit(piece, opacity, weighted, accumulator);
         else
-            sink.add(piece, opacity, weighted);
+            accumulator.add(piece, opacity, weighted);
         return true;
     }
 
-    HWY_INLINE void addLit(const TransferPiece& piece, real opacity, real weighted, ColorSink& sink) const {
-        const auto light = lightShares<look>(frame.look, cell, block, segments.live, opacity);
-        const real ta = sink.t * opacity, tq = sink.t * weighted;
+    HWY_INLINE void addLit(const TransferPiece& piece, real opacity, real weighted,
+                           ColorAccumulator& accumulator) const {
+        const auto light = lightShares<variant>(frame.variant, cell, block, segments.live, opacity);
+        const real ta = accumulator.t * opacity, tq = accumulator.t * weighted;
         const auto channel = [&](std::size_t c, real& sum) HWY_ATTR {
             sum += (real(piece.color[c]) * ta + real(piece.colorSlope[c]) * tq) * light.color(c) + ta * light.white(c);
         };
-        channel(0, sink.r);
-        channel(1, sink.g);
-        channel(2, sink.b);
-        sink.t = sink.t - ta;
+        channel(0, accumulator.r);
+        channel(1, accumulator.g);
+        channel(2, accumulator.b);
+        accumulator.t = accumulator.t - ta;
     }
 
     /// α′ of an isosurface.
-    HWY_INLINE real enhancedOpacity(const TransferPeak& peak) const {
-        if (shows == CellShows::NarrowPeak || (shows != CellShows::WidePeak && peaks.narrow(cell.j)))
-            return peaks.opacity(cell.j, block.fall, block.inverse);
-        return real(1.0f) - fadeOf(min(real(peak.depth) * silhouetteFactor(cell, block), real(80.0f)));
+    HWY_INLINE real enhancedOpacity(const TransferIsosurface& isosurface) const {
+        if (shows == CellShows::NarrowIsosurface || (shows != CellShows::WideIsosurface && isosurfaces.narrow(cell.j)))
+            return isosurfaces.opacity(cell.j, block.fall, block.inverse);
+        return real(1.0f) - fadeOf(min(real(isosurface.depth) * silhouetteFactor(cell, block), real(80.0f)));
     }
 
-    HWY_INLINE void addOnlyPeak(const TransferPeak& peak, ColorSink& sink) const {
-        const mask hits = crossed(peak, segments);
+    HWY_INLINE void addOnlyIsosurface(const TransferIsosurface& isosurface, ColorAccumulator& accumulator) const {
+        const mask hits = crossed(isosurface, segments);
         if (Lit && none(hits)) return;
-        const real opacity = silhouettes() ? enhancedOpacity(peak) : real(peak.opacity);
-        const real ta = keep(hits, sink.t * opacity);
+        const real opacity = silhouettes() ? enhancedOpacity(isosurface) : real(isosurface.opacity);
+        const real ta = keep(hits, accumulator.t * opacity);
         if constexpr (Lit) {
-            const auto light = lightShares<look>(frame.look, cell, block, hits, opacity);
-            sink.r += ta * (real(peak.color[0]) * light.color(0) + light.white(0));
-            sink.g += ta * (real(peak.color[1]) * light.color(1) + light.white(1));
-            sink.b += ta * (real(peak.color[2]) * light.color(2) + light.white(2));
+            const auto light = lightShares<variant>(frame.variant, cell, block, hits, opacity);
+            accumulator.r += ta * (real(isosurface.color[0]) * light.color(0) + light.white(0));
+            accumulator.g += ta * (real(isosurface.color[1]) * light.color(1) + light.white(1));
+            accumulator.b += ta * (real(isosurface.color[2]) * light.color(2) + light.white(2));
         } else {
-            sink.r += real(peak.color[0]) * ta;
-            sink.g += real(peak.color[1]) * ta;
-            sink.b += real(peak.color[2]) * ta;
+            accumulator.r += real(isosurface.color[0]) * ta;
+            accumulator.g += real(isosurface.color[1]) * ta;
+            accumulator.b += real(isosurface.color[2]) * ta;
         }
-        sink.t = sink.t - ta;
+        accumulator.t = accumulator.t - ta;
     }
 
     /// What a segment has of the piece below an isosurface, or of the one above.
@@ -244,9 +250,9 @@ private:
     /// Segments that may cross an isosurface from one piece to the next, scale-invariant; false if some are deep.
     /// Either side is empty where they do not cross it, so that nobody needs to know which way the scalar goes but to
     /// tell what hides what.
-    HWY_INLINE bool addVeiledPeak(const TransferPiece& a, const TransferPiece& b, const TransferPeak& peak,
-                                  ColorSink& sink) const {
-        const real value(peak.value), one(1.0f), least(1e-37f);
+    HWY_INLINE bool addIsosurfaceInMedium(const TransferPiece& a, const TransferPiece& b,
+                                          const TransferIsosurface& isosurface, ColorAccumulator& accumulator) const {
+        const real value(isosurface.value), one(1.0f), least(1e-37f);
         Side low(a, min(segments.front, value), min(segments.back, value)),
             high(b, max(segments.front, value), max(segments.back, value));
         const real depth =
@@ -265,39 +271,40 @@ private:
             low.setThin();
             high.setThin();
         }
-        const mask below = segments.front < value, hits = crossed(peak, segments);
+        const mask below = segments.front < value, hits = crossed(isosurface, segments);
         // what the side in front lets through
         const real before = one - select(below, low.opacity, high.opacity);
-        const real shown = keep(hits, before * real(peak.opacity)), behind = before - shown;
+        const real shown = keep(hits, before * real(isosurface.opacity)), behind = before - shown;
         const real lowWeight = select(below, one, behind), highWeight = select(below, behind, one);
         const real opacity = low.opacity * lowWeight + high.opacity * highWeight + shown;
-        const real enhanced = keep(hits, enhancedOpacity(peak)), veil = anyOpacity(depth);
-        const real ta = sink.t * (veil + enhanced * (one - veil)), share = ta * reciprocal(max(opacity, least));
-        const real lowShare = share * lowWeight, highShare = share * highWeight, peakShare = share * shown;
+        const real enhanced = keep(hits, enhancedOpacity(isosurface)), mediumOpacity = anyOpacity(depth);
+        const real ta = accumulator.t * (mediumOpacity + enhanced * (one - mediumOpacity)),
+                   share = ta * reciprocal(max(opacity, least));
+        const real lowShare = share * lowWeight, highShare = share * highWeight, isosurfaceShare = share * shown;
         const real alphaLow = low.opacity * lowShare, leanLow = low.weighted * lowShare,
                    alphaHigh = high.opacity * highShare, leanHigh = high.weighted * highShare;
         const auto channel = [&](std::size_t c, real& sum) HWY_ATTR {
             sum += real(a.color[c]) * alphaLow + real(a.colorSlope[c]) * leanLow;
             sum += real(b.color[c]) * alphaHigh + real(b.colorSlope[c]) * leanHigh;
-            sum += real(peak.color[c]) * peakShare;
+            sum += real(isosurface.color[c]) * isosurfaceShare;
         };
-        channel(0, sink.r);
-        channel(1, sink.g);
-        channel(2, sink.b);
-        sink.t = sink.t - ta;
+        channel(0, accumulator.r);
+        channel(1, accumulator.g);
+        channel(2, accumulator.b);
+        accumulator.t = accumulator.t - ta;
         return true;
     }
 
     /// What was gathered along several pieces.
-    HWY_INLINE void addWhole(const SegmentSink& whole, ColorSink& sink) const {
-        real opacity = whole.opacity, share = sink.t;  // share: of C that is seen
+    HWY_INLINE void addWhole(const SegmentAccumulator& whole, ColorAccumulator& accumulator) const {
+        real opacity = whole.opacity, share = accumulator.t;  // share: of C that is seen
         if (none(opacity > real(0.0f))) return;
         if (silhouettes()) {
             const real least(1e-37f);
             real depth(0.0f);
             if constexpr (ScaleInvariant)
                 depth = whole.smoothDepth * reciprocal(variationOf(segments)) * segments.length;
-            if constexpr (Peaks || !ScaleInvariant) {
+            if constexpr (Isosurfaces || !ScaleInvariant) {
                 const real other = ScaleInvariant ? whole.otherDepth : whole.smoothDepth + whole.otherDepth;
                 depth += other * silhouetteFactor(cell, block);
             }
@@ -305,18 +312,18 @@ private:
             opacity = anyOpacity(depth);
             share = share * (opacity * reciprocal(thin));
         }
-        const real ta = sink.t * opacity;
+        const real ta = accumulator.t * opacity;
         if constexpr (Lit) {
-            const auto light = lightShares<look>(frame.look, cell, block, segments.live, opacity);
-            sink.r += whole.r * share * light.color(0) + ta * light.white(0);
-            sink.g += whole.g * share * light.color(1) + ta * light.white(1);
-            sink.b += whole.b * share * light.color(2) + ta * light.white(2);
+            const auto light = lightShares<variant>(frame.variant, cell, block, segments.live, opacity);
+            accumulator.r += whole.r * share * light.color(0) + ta * light.white(0);
+            accumulator.g += whole.g * share * light.color(1) + ta * light.white(1);
+            accumulator.b += whole.b * share * light.color(2) + ta * light.white(2);
         } else {
-            sink.r += whole.r * share;
-            sink.g += whole.g * share;
-            sink.b += whole.b * share;
+            accumulator.r += whole.r * share;
+            accumulator.g += whole.g * share;
+            accumulator.b += whole.b * share;
         }
-        sink.t = sink.t - ta;
+        accumulator.t = accumulator.t - ta;
     }
 };
 

@@ -7,14 +7,14 @@
 #include <fmt/ranges.h>
 #include <tbb/task_arena.h>
 
-#include <projection/core/lowered_isosurfaces.h>
+#include <projection/core/perturbed_isosurfaces.h>
 #include <projection/core/scalar_range.h>
 #include <projection/core/wrapped_engine.h>
 #include <projection/cpu/cpu_engine.h>
 #include <projection/frame/adaptive_opacity.h>
 #include <projection/frame/engine_registry.h>
 #include <projection/frame/sampled_engine.h>
-#include <projection/frame/veiled_volume.h>
+#include <projection/frame/translucent_slices.h>
 #include <projection/frame/view_maps.h>
 #include <projection/gl/gl_engine.h>
 #include <projection/light/light_frame.h>
@@ -28,13 +28,14 @@ namespace {
 struct RegisteredEngine {
     const char* name;
     std::unique_ptr<Engine> (*make)(const Scene&, const EngineOptions&);
-    double tie;  ///< lowered_isosurfaces.h
-    bool veils;  ///< whether it draws PixelMaps::veils by itself
+    double perturbation;    ///< perturbed_isosurfaces.h
+    bool drawsTranslucent;  ///< whether it draws PixelMaps::translucent by itself
 };
 
 // The first one is what "auto" takes.
 constexpr std::array engines{
-    RegisteredEngine{"cpu", makeCpuEngine, floatTie, false}, RegisteredEngine{"gl", makeGlEngine, floatTie, false},
+    RegisteredEngine{"cpu", makeCpuEngine, floatPerturbation, false},
+    RegisteredEngine{"gl", makeGlEngine, floatPerturbation, false},
     RegisteredEngine{"reference", makeReferenceEngine, 0.0, true},  // its ray caster sees to ties
 };
 
@@ -86,8 +87,10 @@ std::unique_ptr<Engine> makeEngineHere(const Scene& wanted, const EngineOptions&
         if (name == engine.name) {
             const MakeEngine plain = [&](const Scene& part) {
                 auto made = withExactRepair(
-                    engine.make(engine.tie > 0 ? withTiesAbove(part, engine.tie) : part, options), part);
-                return engine.veils ? std::move(made) : withVeils(std::move(made));
+                    engine.make(engine.perturbation > 0 ? withPerturbedIsosurfaces(part, engine.perturbation) : part,
+                                options),
+                    part);
+                return engine.drawsTranslucent ? std::move(made) : withTranslucentSlices(std::move(made));
             };
             auto drawn = isAdaptive(scene.settings) ? makeAdaptiveEngine(scene, plain) : plain(scene);
             return withSamples(withViewMaps(std::move(drawn), scene), wanted);

@@ -55,12 +55,12 @@ PixelMaps mapsOfSamples(const PixelMaps& maps, const Camera& camera, int perAxis
     spread(maps.cutNormal, result.cutNormal);
     spread(maps.extinctionScale, result.extinctionScale);
     spread(maps.behind, result.behind);
-    for (const Veil& veil : maps.veils)
-        grid.ofPixel(veil.pixel, [&](std::size_t sample) {
-            result.veils.push_back(veil);
-            result.veils.back().pixel = static_cast<std::uint32_t>(sample);
+    for (const TranslucentFragment& fragment : maps.translucent)
+        grid.ofPixel(fragment.pixel, [&](std::size_t sample) {
+            result.translucent.push_back(fragment);
+            result.translucent.back().pixel = static_cast<std::uint32_t>(sample);
         });
-    std::sort(result.veils.begin(), result.veils.end());
+    std::sort(result.translucent.begin(), result.translucent.end());
     return result;
 }
 

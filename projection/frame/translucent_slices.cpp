@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <projection/frame/veiled_volume.h>
+#include <projection/frame/translucent_slices.h>
 
 #include <algorithm>
 #include <limits>
@@ -11,11 +11,12 @@ namespace tetralux::projection {
 
 namespace {
 
-/// The veils of each pixel, one after the other.
-class VeilLists {
+/// The translucent fragments of each pixel, one after the other.
+class TranslucentLists {
 public:
-    VeilLists(const std::vector<Veil>& veils, std::size_t pixels) : veils_(veils), starts_(pixels + 1) {
-        for (const Veil& veil : veils) ++starts_[veil.pixel + 1];
+    TranslucentLists(const std::vector<TranslucentFragment>& translucent, std::size_t pixels)
+        : translucent_(translucent), starts_(pixels + 1) {
+        for (const TranslucentFragment& fragment : translucent) ++starts_[fragment.pixel + 1];
         for (std::size_t i = 0; i < pixels; ++i) {
             most_ = std::max(most_, starts_[i + 1]);
             starts_[i + 1] += starts_[i];
@@ -24,16 +25,16 @@ public:
 
     std::size_t most() const { return most_; }
     std::size_t count(std::size_t pixel) const { return starts_[pixel + 1] - starts_[pixel]; }
-    const Veil& of(std::size_t pixel, std::size_t i) const { return veils_[starts_[pixel] + i]; }
+    const TranslucentFragment& of(std::size_t pixel, std::size_t i) const { return translucent_[starts_[pixel] + i]; }
 
 private:
-    const std::vector<Veil>& veils_;
+    const std::vector<TranslucentFragment>& translucent_;
     std::vector<std::size_t> starts_;
     std::size_t most_ = 0;
 };
 
-/// What of the volume lies between veil `part` − 1 and veil `part`; nothing where a pixel has fewer veils.
-PixelMaps partOf(const PixelMaps& whole, const VeilLists& veils, std::size_t pixels, std::size_t part) {
+/// What of the volume lies between translucent fragment `part` − 1 and `part`; nothing where a pixel has fewer.
+PixelMaps partOf(const PixelMaps& whole, const TranslucentLists& translucent, std::size_t pixels, std::size_t part) {
     PixelMaps maps;
     maps.nearest = whole.nearest;
     maps.farthest = whole.farthest;
@@ -43,13 +44,13 @@ PixelMaps partOf(const PixelMaps& whole, const VeilLists& veils, std::size_t pix
     maps.nearest.resize(pixels, 0.0);
     maps.farthest.resize(pixels, std::numeric_limits<double>::infinity());
     for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-        const std::size_t count = veils.count(pixel);
+        const std::size_t count = translucent.count(pixel);
         if (part > 0) {
-            const double begin = count > 0 ? veils.of(pixel, std::min(part, count) - 1).distance : 1.0;
+            const double begin = count > 0 ? translucent.of(pixel, std::min(part, count) - 1).distance : 1.0;
             maps.nearest[pixel] = std::max(maps.nearest[pixel], begin);
             if (part > count) maps.farthest[pixel] = maps.nearest[pixel];
         }
-        if (part < count) maps.farthest[pixel] = std::min(maps.farthest[pixel], veils.of(pixel, part).distance);
+        if (part < count) maps.farthest[pixel] = std::min(maps.farthest[pixel], translucent.of(pixel, part).distance);
     }
     return maps;
 }
@@ -67,18 +68,18 @@ void add(const FrameReport& part, FrameReport& whole) {
     for (const auto& [stage, spent] : part.stageMilliseconds) whole.stageMilliseconds[stage] += spent;
 }
 
-class VeiledEngine final : public WrappedEngine {
+class TranslucentSlicesEngine final : public WrappedEngine {
 public:
     using WrappedEngine::WrappedEngine;
 
     Image render(const View& view, FrameReport& report) override {
-        if (view.maps == nullptr || view.maps->veils.empty()) return engine_->render(view, report);
+        if (view.maps == nullptr || view.maps->translucent.empty()) return engine_->render(view, report);
         checkPixelMaps(view);
         const auto pixels = static_cast<std::size_t>(view.camera.width) * static_cast<std::size_t>(view.camera.height);
-        const VeilLists veils(view.maps->veils, pixels);
+        const TranslucentLists translucent(view.maps->translucent, pixels);
         Image image;
-        for (std::size_t part = 0; part <= veils.most(); ++part) {
-            const PixelMaps maps = partOf(*view.maps, veils, pixels, part);
+        for (std::size_t part = 0; part <= translucent.most(); ++part) {
+            const PixelMaps maps = partOf(*view.maps, translucent, pixels, part);
             FrameReport partReport;
             Image drawn = engine_->render({view.camera, &maps, view.control}, part == 0 ? report : partReport);
             if (part == 0) {
@@ -87,9 +88,9 @@ public:
             }
             add(partReport, report);
             for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-                if (part > veils.count(pixel)) continue;
+                if (part > translucent.count(pixel)) continue;
                 glm::vec4& whole = image.pixels[pixel];
-                whole += (1.0f - whole.a) * veils.of(pixel, part - 1).color;
+                whole += (1.0f - whole.a) * translucent.of(pixel, part - 1).color;
                 whole += (1.0f - whole.a) * drawn.pixels[pixel];
             }
         }
@@ -99,8 +100,8 @@ public:
 
 }  // namespace
 
-std::unique_ptr<Engine> withVeils(std::unique_ptr<Engine> engine) {
-    return std::make_unique<VeiledEngine>(std::move(engine));
+std::unique_ptr<Engine> withTranslucentSlices(std::unique_ptr<Engine> engine) {
+    return std::make_unique<TranslucentSlicesEngine>(std::move(engine));
 }
 
 }  // namespace tetralux::projection

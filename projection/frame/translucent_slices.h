@@ -10,7 +10,8 @@
 
 namespace tetralux::projection {
 
-/// An engine that honours PixelMaps::veils, by frames of `engine`: one more than the most veils of a pixel.
-std::unique_ptr<Engine> withVeils(std::unique_ptr<Engine> engine);
+/// An engine that honours PixelMaps::translucent, by frames of `engine`: one more than the most translucent fragments
+/// of a pixel.
+std::unique_ptr<Engine> withTranslucentSlices(std::unique_ptr<Engine> engine);
 
 }  // namespace tetralux::projection

@@ -28,8 +28,8 @@ struct GlCellLayout {
     std::size_t floats() const { return 2 * slots(); }
 };
 
-/// How a shader finds vertices' attributes: the eye's barycentric coordinates (orthographic: their rates per rho) and
-/// the point numbers.
+/// How a shader finds vertices' attributes: the eye's barycentric coordinates (orthographic: their rates per
+/// inverseDepth) and the point numbers.
 struct CellCorners {
     float eyeWeight[4];
     std::uint32_t point[4];

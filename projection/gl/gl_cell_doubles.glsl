@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The GLSL side of projection/cells/projected_cell.h: what the shared texts of projected cells call, in doubles. Their constants are definitions
-// (gl_compute.cpp).
+// The GLSL side of projection/cells/projected_cell.h: what the shared texts of projected cells call, in doubles.
+// Their constants are definitions (gl_compute.cpp).
 #define TETRALUX_CELL_FUNCTION
 #define TETRALUX_CELL_IN(type) type
 #define TETRALUX_CELL_INOUT(type) inout type

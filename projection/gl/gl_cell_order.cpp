@@ -45,7 +45,7 @@ void GlCellOrder::describe(FrameReport& report) const {
     report.orderMethod = sorter_ ? sorter_->method() : "none";
     if (!sorter_) return;
     report.failingFaces = sorter_->failingFaces();
-    report.orderUpkeep = "sorted";
+    report.incrementalSort = "sorted";
 }
 
 void GlCellOrder::tellSkipped(std::uint64_t outsideView, std::uint64_t noPixelCentre, FrameReport& report) const {
@@ -103,8 +103,8 @@ const std::vector<mesh::CellIndex>& GlCellOrder::backToFront(const CellProjector
     const VisibilityOrder& order = sorter_->sort(projector);
     report.cellsSorted = order.frontToBack.size();
     report.orderCycles = order.cyclicCells;
-    report.orderUpkeep = order.upkeep;
-    report.doubtfulPixels = order.doubtfulPixels;
+    report.incrementalSort = order.incrementalSort;
+    report.uncertainPixels = order.uncertainPixels;
     ordered_.clear();
     for (auto cell = order.frontToBack.rbegin(); cell != order.frontToBack.rend(); ++cell)
         if (shows_.empty() || shows_[*cell] != 0) ordered_.push_back(*cell);
@@ -131,7 +131,7 @@ const std::vector<mesh::CellIndex>& GlCellOrder::drawnCells(const CellProjector&
 }
 
 void GlCellOrder::tellDisorder(const CellProjector& projector, FrameReport& report) {
-    if (sorter_ && sorter_->method() == "centroid") report.doubtfulPixels = sorter_->pixelsOutOfOrder(projector);
+    if (sorter_ && sorter_->method() == "centroid") report.uncertainPixels = sorter_->pixelsOutOfOrder(projector);
 }
 
 }  // namespace tetralux::projection

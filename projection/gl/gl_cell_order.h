@@ -49,7 +49,7 @@ public:
     /// What a report says of the order, whoever made it.
     void describe(FrameReport& report) const;
 
-    /// Of an order by centroids: the pixels that it may spoil are doubtful.
+    /// Of an order by centroids: the pixels that it may spoil are uncertain.
     void tellDisorder(const CellProjector& projector, FrameReport& report);
 
 private:

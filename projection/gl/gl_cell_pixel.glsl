@@ -1,87 +1,87 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// One pixel of one cell: cut the ray by the cell's planes (projection/cells/cell_interval.glsl), look up what light meets in between, shade it.
-// The text of fragments (gl_cell.frag) and of compute tiles (gl_tile_draw.comp).
-// The variants stand in projection/gl/gl_variants.glsl.
+// One pixel of one cell: cut the ray by the cell's planes (projection/cells/cell_interval.glsl), look up what light
+// meets in between, shade it. The text of fragments (gl_cell.frag) and of compute tiles (gl_tile_draw.comp). The
+// variants stand in projection/gl/gl_variants.glsl.
 
 uniform vec2 centre;        // pixel coordinates of the optical axis
 
 #if TETRALUX_LIMITS
-// Nearness at which the volume begins and ends, factor of extinction, nearness at which the layer of a cut ends
-// (projection/cells/ray_nearness.h).
+// Inverse depth at which the volume begins and ends, factor of extinction, inverse depth at which the layer of a cut
+// ends (projection/cells/ray_inverse_depth.h).
 uniform sampler2D limits;
 uniform sampler2D cutNormals;
 
-float rhoOfNearness(CellRecord cell, float nearness) {
+float inverseDepthOfRay(CellRecord cell, float rayInverseDepth) {
 #if TETRALUX_ORTHOGRAPHIC
-    return (beyondReference(cell) + nearness) / abs(cell.scale);
+    return (beyondReference(cell) + rayInverseDepth) / abs(cell.scale);
 #else
-    return (beyondReference(cell) + cell.scale * nearness) / depthReference;
+    return (beyondReference(cell) + cell.scale * rayInverseDepth) / depthReference;
 #endif
 }
 #endif
 
-// rho where the ray enters (x) and leaves (y) the cell, at the sample dx, dy pixels beside the reference point. Nothing is inside
-// where x ≤ y.
-vec2 rhoInterval(CellRecord cell, float dx, float dy) {
+// inverseDepth where the ray enters (x) and leaves (y) the cell, at the sample dx, dy pixels beside the reference
+// point. Nothing is inside where x ≤ y.
+vec2 inverseDepthInterval(CellRecord cell, float dx, float dy) {
 #if TETRALUX_ORTHOGRAPHIC
     float nearest = sign(cell.scale), farthest = -3e38;  // the eye's plane
 #else
     float nearest = 1e30, farthest = -0.9999999;  // the eye; infinitely far
 #endif
     for (int k = 0; k < 4; ++k) {
-        float rho = planeRho(cell.plane[k].x, cell.plane[k].y, cell.plane[k].z, dx, dy);
+        float inverseDepth = planeInverseDepth(cell.plane[k].x, cell.plane[k].y, cell.plane[k].z, dx, dy);
         bool front = (cell.frontMask & (1 << k)) != 0;
-        nearest = min(nearest, front ? rho : 3e38);
-        farthest = max(farthest, front ? -3e38 : rho);
+        nearest = min(nearest, front ? inverseDepth : 3e38);
+        farthest = max(farthest, front ? -3e38 : inverseDepth);
     }
     return vec2(nearest, farthest);
 }
 
-float scalarAtRho(CellRecord cell, float dx, float dy, float rho) {
+float scalarAtInverseDepth(CellRecord cell, float dx, float dy, float inverseDepth) {
 #if TETRALUX_ORTHOGRAPHIC
-    return scalarOrthographic(cell.scalar, cell.scalarPerX, cell.scalarPerY, cell.scalarPerRho, dx, dy, rho,
+    return scalarOrthographic(cell.scalar, cell.scalarPerX, cell.scalarPerY, cell.scalarPerInverseDepth, dx, dy, inverseDepth,
                               cell.scalarLow, cell.scalarHigh);
 #else
-    return scalarPerspective(cell.scalar, cell.scalarPerX, cell.scalarPerY, cell.scalarPerRho, dx, dy, rho,
+    return scalarPerspective(cell.scalar, cell.scalarPerX, cell.scalarPerY, cell.scalarPerInverseDepth, dx, dy, inverseDepth,
                              cell.scalarLow, cell.scalarHigh);
 #endif
 }
 
 #if TETRALUX_LENGTH
-float segmentLength(CellRecord cell, vec2 rho, vec2 fromCentre) {
+float segmentLength(CellRecord cell, vec2 inverseDepth, vec2 fromCentre) {
 #if TETRALUX_ORTHOGRAPHIC
-    return segmentLengthOrthographic(cell.scale, rho.x, rho.y);
+    return segmentLengthOrthographic(cell.scale, inverseDepth.x, inverseDepth.y);
 #else
     // |forward + x·right + y·down|, whose three vectors are orthogonal
     float rayLength = sqrt(1.0 + dot(viewRight, viewRight) * dot(fromCentre, fromCentre));
-    return segmentLengthPerspective(cell.scale, rho.x, rho.y, rayLength);
+    return segmentLengthPerspective(cell.scale, inverseDepth.x, inverseDepth.y, rayLength);
 #endif
 }
 #endif
 
 #if TETRALUX_MODE == TETRALUX_MODE_DEPTH || TETRALUX_DEPTH_COLOR
 // Distance along the ray less depthReference, scene lengths.
-float distanceBeyond(CellRecord cell, float rho, vec2 fromCentre) {
+float distanceBeyond(CellRecord cell, float inverseDepth, vec2 fromCentre) {
 #if TETRALUX_ORTHOGRAPHIC
-    return depthBeyond(cell, rho);
+    return depthBeyond(cell, inverseDepth);
 #else
     float square = dot(viewRight, viewRight) * dot(fromCentre, fromCentre), rayLength = sqrt(1.0 + square);
-    return depthBeyond(cell, rho) * rayLength + depthReference * square / (1.0 + rayLength);
+    return depthBeyond(cell, inverseDepth) * rayLength + depthReference * square / (1.0 + rayLength);
 #endif
 }
 #endif
 
-// What the segment of the cell between rho.x and rho.y adds to the pixel, premultiplied; false where it adds nothing. `cutNormal` is lit
-// in the place of the field's where it is not zero.
-bool drawSegment(CellRecord cell, vec2 pixel, float dx, float dy, vec2 rho, vec3 cutNormal, out vec4 result) {
+// What the segment of the cell between inverseDepth.x and inverseDepth.y adds to the pixel, premultiplied; false
+// where it adds nothing. `cutNormal` is lit in the place of the field's where it is not zero.
+bool drawSegment(CellRecord cell, vec2 pixel, float dx, float dy, vec2 inverseDepth, vec3 cutNormal, out vec4 result) {
     result = vec4(0.0);
-    if (!(rho.x > rho.y)) return false;
-    float front = scalarAtRho(cell, dx, dy, rho.x);
-    float back = scalarAtRho(cell, dx, dy, rho.y);
+    if (!(inverseDepth.x > inverseDepth.y)) return false;
+    float front = scalarAtInverseDepth(cell, dx, dy, inverseDepth.x);
+    float back = scalarAtInverseDepth(cell, dx, dy, inverseDepth.y);
     float len = 0.0;
 #if TETRALUX_LENGTH
-    len = segmentLength(cell, rho, pixel - centre);
+    len = segmentLength(cell, inverseDepth, pixel - centre);
 #endif
 
 #if TETRALUX_MODE == TETRALUX_MODE_MIP
@@ -94,7 +94,7 @@ bool drawSegment(CellRecord cell, vec2 pixel, float dx, float dy, vec2 rho, vec3
     float step = firstShown(front, back);
     if (step > 1e30) return false;
     float along = front == back ? 0.0 : len * min(step / abs(back - front), 1.0);
-    result = vec4(distanceBeyond(cell, rho.x, pixel - centre) + along, 0.0, 0.0, 1.0);
+    result = vec4(distanceBeyond(cell, inverseDepth.x, pixel - centre) + along, 0.0, 0.0, 1.0);
 #else
     vec3 view = vec3(0.0);
     vec4 normalAndMagnitude = vec4(0.0);
@@ -106,15 +106,15 @@ bool drawSegment(CellRecord cell, vec2 pixel, float dx, float dy, vec2 rho, vec3
 #endif
 #endif
 #if TETRALUX_FULL_LIGHT || TETRALUX_ATTRIBUTES
-    setMiddle(cell, rho, dx, dy, pixel - centre);
+    setMiddle(cell, inverseDepth, dx, dy, pixel - centre);
 #endif
     float across = 0.0;
 #if !TETRALUX_ORTHOGRAPHIC
     across = cell.scalarPerX * dx + cell.scalarPerY * dy;
 #endif
-    float side = sign(scalarFall(across, cell.scalarPerRho));
+    float side = sign(scalarFall(across, cell.scalarPerInverseDepth));
 #if TETRALUX_DEPTH_COLOR
-    float middle = 0.5 * (distanceBeyond(cell, rho.x, pixel - centre) + distanceBeyond(cell, rho.y, pixel - centre));
+    float middle = 0.5 * (distanceBeyond(cell, inverseDepth.x, pixel - centre) + distanceBeyond(cell, inverseDepth.y, pixel - centre));
     depthShare = depthColor.a * clamp(depthRange.x + depthRange.y * middle, 0.0, 1.0);
 #endif
 #if TETRALUX_SURFACE_SHADOWS
@@ -127,7 +127,7 @@ bool drawSegment(CellRecord cell, vec2 pixel, float dx, float dy, vec2 rho, vec3
 #if !TETRALUX_ORTHOGRAPHIC
     // an eye on a vertex or an edge: that a cell ends right there is for rounding to say
     const float atEye = 1e6, faint = 1e-4;
-    if (rho.y > atEye && perOpacity.a < faint) return false;
+    if (inverseDepth.y > atEye && perOpacity.a < faint) return false;
 #endif
     result = vec4(perOpacity.rgb, 1.0);
 #elif TETRALUX_MODE == TETRALUX_MODE_ABSORPTION
@@ -159,19 +159,19 @@ bool drawPixel(CellRecord cell, ivec2 place, out vec4 result) {
     vec2 pixel = vec2(place);
     float dx = (pixel.x - cell.pixel.x) - cell.fraction.x;
     float dy = (pixel.y - cell.pixel.y) - cell.fraction.y;
-    vec2 rho = rhoInterval(cell, dx, dy);
+    vec2 inverseDepth = inverseDepthInterval(cell, dx, dy);
 #if TETRALUX_LIMITS
     vec4 limit = texelFetch(limits, place, 0);
-    rho = vec2(min(rho.x, rhoOfNearness(cell, limit.x)), max(rho.y, rhoOfNearness(cell, limit.y)));
-    interfaceScale = limit.z;
+    inverseDepth = vec2(min(inverseDepth.x, inverseDepthOfRay(cell, limit.x)), max(inverseDepth.y, inverseDepthOfRay(cell, limit.y)));
+    isosurfaceScale = limit.z;
 #endif
 #if TETRALUX_CUT_LAYERS
-    float layerEnd = rhoOfNearness(cell, limit.w);
+    float layerEnd = inverseDepthOfRay(cell, limit.w);
     bool anything = false;
     result = vec4(0.0);
     for (int part = 0; part < 2; ++part) {
         bool layer = part == 0;
-        vec2 within = layer ? vec2(rho.x, max(rho.y, layerEnd)) : vec2(min(rho.x, layerEnd), rho.y);
+        vec2 within = layer ? vec2(inverseDepth.x, max(inverseDepth.y, layerEnd)) : vec2(min(inverseDepth.x, layerEnd), inverseDepth.y);
         if (!(within.x > within.y)) continue;
         vec4 segment;
         bool shown = drawSegment(cell, pixel, dx, dy, within, layer ? texelFetch(cutNormals, place, 0).xyz : vec3(0.0), segment);
@@ -179,6 +179,6 @@ bool drawPixel(CellRecord cell, ivec2 place, out vec4 result) {
     }
     return anything;
 #else
-    return drawSegment(cell, pixel, dx, dy, rho, vec3(0.0), result);
+    return drawSegment(cell, pixel, dx, dy, inverseDepth, vec3(0.0), result);
 #endif
 }

@@ -77,7 +77,7 @@ GlDefines variant(const RenderSettings& settings, const shading::VertexLight& ve
     const int lights = shades ? static_cast<int>(shading.lights.size()) : 0;
     GlDefines defines;
     defines.set("TETRALUX_ORTHOGRAPHIC", kind.orthographic);
-    defines.set("TETRALUX_LIMITS", kind.limited);
+    defines.set("TETRALUX_LIMITS", kind.clipped);
     defines.set("TETRALUX_TILES", kind.tiles);
     defines.set("TETRALUX_MODE", shaderMode(settings.mode));
     defines.set("TETRALUX_SCALE_INVARIANT", scaleInvariant);
@@ -91,7 +91,7 @@ GlDefines variant(const RenderSettings& settings, const shading::VertexLight& ve
     defines.set("TETRALUX_PER_CELL", shades && settings.contributions.perCell);
     defines.set("TETRALUX_LINEAR_OPACITY", shades && settings.classification == Classification::PostLinear);
     defines.set("TETRALUX_LIGHTS", lights);
-    defines.set("TETRALUX_CUT_LAYERS", kind.limited && lights > 0 && settings.mode != Mode::Absorption);
+    defines.set("TETRALUX_CUT_LAYERS", kind.clipped && lights > 0 && settings.mode != Mode::Absorption);
     defines.set("TETRALUX_DEPTH_COLOR", shades && shading.depthColor.has_value());
     defines.set("TETRALUX_GRADIENT", shades && shading.needsGradient());
     const bool full = lights > 0 && !shading.plain();
@@ -111,7 +111,7 @@ GlDefines variant(const RenderSettings& settings, const shading::VertexLight& ve
     defines.set("TETRALUX_LENGTH", length);
     if (!looksUp) return defines;
     const glm::dvec2 zone = shaderZone(table->zones.front());
-    defines.set("TETRALUX_INTERFACES", static_cast<int>(table->interfaces.size()));
+    defines.set("TETRALUX_DISCONTINUITIES", static_cast<int>(table->discontinuities.size()));
     defines.set("TETRALUX_ZONES", static_cast<int>(table->zones.size()));
     defines.set("TETRALUX_ZONE_LOW", zone.x);
     defines.set("TETRALUX_ZONE_PER_SCALAR", zone.y);
@@ -129,19 +129,23 @@ GlDefines variant(const RenderSettings& settings, const shading::VertexLight& ve
 }
 
 std::vector<std::string_view> pixelFiles(bool looksUp, bool walks) {
-    std::vector<std::string_view> files{"preint/glsl_prelude.glsl",          "preint/value_from_above.glsl",
+    std::vector<std::string_view> files{"preint/glsl_prelude.glsl",
+                                        "preint/value_from_above.glsl",
                                         "projection/gl/gl_precision.glsl",
-                                        "projection/gl/gl_variants.glsl",    "projection/cells/cell_interval.glsl",
-                                        "projection/gl/gl_cell_record.glsl", "projection/gl/gl_cell_depth.glsl",   "shading/light_model.glsl",
+                                        "projection/gl/gl_variants.glsl",
+                                        "projection/cells/cell_interval.glsl",
+                                        "projection/gl/gl_cell_record.glsl",
+                                        "projection/gl/gl_cell_depth.glsl",
+                                        "shading/light_model.glsl",
                                         "projection/gl/gl_light.glsl"};
     if (looksUp) {
         if (walks)
             files.emplace_back("projection/gl/gl_walk.glsl");
         else
             files.insert(files.end(), {"projection/gl/gl_table.glsl", "preint/table_lookup.glsl"});
-        files.insert(files.end(), {"preint/gather_segment.glsl", "shading/cell_shading.glsl", "shading/silhouette.glsl",
-                                   "shading/surface_shadow.glsl", "projection/gl/gl_modes.glsl",
-                                   "projection/gl/gl_segment.glsl"});
+        files.insert(files.end(),
+                     {"preint/gather_segment.glsl", "shading/cell_shading.glsl", "shading/silhouette.glsl",
+                      "shading/surface_shadow.glsl", "projection/gl/gl_modes.glsl", "projection/gl/gl_segment.glsl"});
     }
     files.emplace_back("projection/gl/gl_cell_pixel.glsl");
     return files;
@@ -247,8 +251,8 @@ GlCellProgram::GlCellProgram(const GlFunctions& gl, const RenderSettings& settin
                              bool linearSampler)
     : gl_(gl),
       program_(gl,
-               withTileConstants(variant(settings, vertexLight, extinctionSupport(function).size(), table, walked,
-                                         kind, linearSampler),
+               withTileConstants(variant(settings, vertexLight, extinctionSupport(function).size(), table, walked, kind,
+                                         linearSampler),
                                  kind.tiles),
                shaders(table != nullptr, walked != nullptr, kind.tiles)),
       ndcPerPixel_(program_.uniform("ndcPerPixel")),
@@ -297,16 +301,16 @@ void GlCellProgram::setConstants(const RenderSettings& settings, const std::vect
                    reinterpret_cast<const float*>(zones.data()));
     std::vector<float> values;
     std::vector<glm::vec4> layers;
-    std::vector<GLint> zoneAfter{table->interfaces.empty() ? 0 : table->interfaces.front().zoneBelow};
-    for (const preint::Interface& entry : table->interfaces) {
+    std::vector<GLint> zoneAfter{table->discontinuities.empty() ? 0 : table->discontinuities.front().zoneBelow};
+    for (const preint::Discontinuity& entry : table->discontinuities) {
         values.push_back(static_cast<float>(entry.value));
         layers.emplace_back(glm::vec3(entry.color),
                             static_cast<float>(std::min(-std::log1p(-entry.opacity), opaqueDepth)));
         zoneAfter.push_back(entry.zoneAbove);
     }
     const auto count = static_cast<GLsizei>(values.size());
-    gl_.Uniform1fv(program_.uniform("interfaceValue"), count, values.data());
-    gl_.Uniform4fv(program_.uniform("interfaceLayer"), count, reinterpret_cast<const float*>(layers.data()));
+    gl_.Uniform1fv(program_.uniform("discontinuityValue"), count, values.data());
+    gl_.Uniform4fv(program_.uniform("discontinuityLayer"), count, reinterpret_cast<const float*>(layers.data()));
     gl_.Uniform1iv(program_.uniform("zoneAfter"), count + 1, zoneAfter.data());
     if (walked != nullptr)
         gl_.Uniform1iv(program_.uniform("zonePiece"), static_cast<GLsizei>(walked->zonePiece.size()),
@@ -343,8 +347,7 @@ void GlCellProgram::setLights(const std::vector<FrameLight>& lights, const Scene
 }
 
 void GlCellProgram::setDepthRange(const DepthRange& range, double depthReference, const SceneUnits& units) const {
-    gl_.Uniform2f(program_.uniform("depthRange"),
-                  static_cast<float>(1.0 - range.greyAt(depthReference * units.length)),
+    gl_.Uniform2f(program_.uniform("depthRange"), static_cast<float>(1.0 - range.greyAt(depthReference * units.length)),
                   static_cast<float>(-range.greyPerDistance() * units.length));
 }
 

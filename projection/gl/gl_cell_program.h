@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// Internal: the shader program of one scene and kind of camera, with all that it reads: table texture, interfaces,
-/// lights.
+/// Internal: the shader program of one scene and kind of camera, with all that it reads: table texture,
+/// discontinuities, lights.
 #pragma once
 
 #include <memory>
@@ -26,7 +26,7 @@ inline constexpr GLuint tableUnit = 0, vertexLightUnit = 1, limitsUnit = 2;  ///
 /// The kinds of frames that a scene may ask for.
 struct GlFrameKind {
     bool orthographic = false;
-    bool limited = false;  ///< within pixel maps
+    bool clipped = false;  ///< within pixel maps
     bool tiles = false;    ///< by compute tiles (gl_tiles.h)
 };
 
@@ -99,7 +99,8 @@ private:
 
     const GlFunctions& gl_;
     GlProgram program_;
-    GLint ndcPerPixel_, centre_, viewForward_, viewRight_, viewDown_, depthReference_, depthOrigin_, lightPlace_, lightFade_;
+    GLint ndcPerPixel_, centre_, viewForward_, viewRight_, viewDown_, depthReference_, depthOrigin_, lightPlace_,
+        lightFade_;
 };
 
 }  // namespace tetralux::projection

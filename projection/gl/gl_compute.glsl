@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What compute shaders of the resident path share: numbering over two dimensions of groups (one takes 65,535 at most), prefix sums over a group,
-// and the frame's plan.
+// What compute shaders of the resident path share: numbering over two dimensions of groups (one takes 65,535 at
+// most), prefix sums over a group, and the frame's plan.
 layout(local_size_x = TETRALUX_GROUP) in;
 
 uint groupNumber() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }

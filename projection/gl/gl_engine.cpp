@@ -15,7 +15,7 @@
 
 #include <projection/cells/cell_constants.h>
 #include <projection/cells/edge_on_planes.h>
-#include <projection/cells/ray_nearness.h>
+#include <projection/cells/ray_inverse_depth.h>
 #include <projection/core/transfer_support.h>
 #include <projection/gl/gl_cell_order.h>
 #include <projection/gl/gl_cell_program.h>
@@ -135,8 +135,8 @@ public:
           units_(sceneUnits(*scene.mesh)),
           edgeOnPlanes_(*scene.mesh),
           function_(inSceneUnits(scene.transferFunction, units_, integralOf(scene.settings.mode))),
-          scalarColors_(function_, scene.mesh->association == mesh::Association::Cell &&
-                                     scene.settings.mode != Mode::Average),
+          scalarColors_(function_,
+                        scene.mesh->association == mesh::Association::Cell && scene.settings.mode != Mode::Average),
           context_(makeGlContext(options.context)) {
         Stopwatch watch;
         layout_.gradient = modeLooksUp(mode()) && mode() != Mode::Depth && scene.settings.shading.needsGradient();
@@ -148,8 +148,8 @@ public:
             prepare_["table"] = watch.lap();
             const auto& shading = scene.settings.shading;
             fullLight_ = shading.lit() && !shading.plain();
-            layout_.attributes = (fullLight_ && vertexLight_->any()) || vertexLight_->sampleAt >= 0 ||
-                                 shading.smoothSilhouettes();
+            layout_.attributes =
+                (fullLight_ && vertexLight_->any()) || vertexLight_->sampleAt >= 0 || shading.smoothSilhouettes();
             prepare_["light"] = watch.lap();
         }
         order_.emplace(scene, modeLooksUp(mode()) && !orderFree(mode()) && orderMatters(), modeLooksUp(mode()));
@@ -270,7 +270,7 @@ GlDrawing GlEngine::wayOfFrame(const CameraFrame& frame) {
 }
 
 const GlCellProgram& GlEngine::program(GlFrameKind kind) {
-    auto& made = state_->programs[(kind.orthographic ? 1u : 0u) + (kind.limited ? 2u : 0u) + (kind.tiles ? 4u : 0u)];
+    auto& made = state_->programs[(kind.orthographic ? 1u : 0u) + (kind.clipped ? 2u : 0u) + (kind.tiles ? 4u : 0u)];
     if (!made) {
         made = std::make_unique<GlCellProgram>(*state_->gl, scene_.settings, *vertexLight_, function_,
                                                table_ ? &*table_ : nullptr, walked_ ? &*walked_ : nullptr, kind,
@@ -304,10 +304,11 @@ void GlEngine::setBlending() const {
 CellCorners GlEngine::cellCorners(const CellProjector& projector, const CellRecord& record, const CameraFrame& frame,
                                   mesh::CellIndex cell) const {
     const std::array<double, 4> eye = projector.eyeCoordinates(cell);
-    const double perRho = frame.orthographic ? std::abs(frame.depthOrigin + static_cast<double>(record.scale)) * units_.length : 1.0;
+    const double perInverseDepth =
+        frame.orthographic ? std::abs(frame.depthOrigin + static_cast<double>(record.scale)) * units_.length : 1.0;
     CellCorners corners;
     for (std::size_t k = 0; k < 4; ++k) {
-        corners.eyeWeight[k] = static_cast<float>(eye[k] * perRho);
+        corners.eyeWeight[k] = static_cast<float>(eye[k] * perInverseDepth);
         corners.point[k] = vertexLight_->cornersOf(cell, scene_.mesh->cells[cell])[k];
     }
     return corners;
@@ -330,16 +331,16 @@ void GlEngine::writeCells(const CellProjector& projector, const CameraFrame& fra
 /// Clears the target and binds all that fragments read.
 const GlCellProgram& GlEngine::beginFrame(const View& view, const CameraFrame& frame, GlDrawing way) {
     state_->target->begin(frame.width, frame.height, clearValue(mode()));
-    const bool limited = view.maps != nullptr && view.maps->changeVolume();
+    const bool clipped = view.maps != nullptr && view.maps->changeVolume();
     const double depthReference = depthReferenceOf(scene_.mesh->bounds, frame, units_);
-    if (limited) {
+    if (clipped) {
         if (!state_->limits) state_->limits.emplace(*state_->gl);
         state_->limits->upload(*view.maps, frame, units_, depthReference);
         state_->limits->bind(limitsUnit);
     }
     if (state_->table) state_->table->bind(tableUnit);  // after uploads, which bind textures of their own
     if (state_->vertexLight) state_->vertexLight->bind(vertexLightUnit);
-    const GlCellProgram& cellProgram = program({frame.orthographic, limited, way == GlDrawing::Tiles});
+    const GlCellProgram& cellProgram = program({frame.orthographic, clipped, way == GlDrawing::Tiles});
     cellProgram.use(frame, depthReference);
     if (way == GlDrawing::Tiles)
         cellProgram.setTiles(frame, layout_.floats(), scene_.settings.earlyTermination ? leastTransmittance : -1.0f);
@@ -481,9 +482,10 @@ Image GlEngine::render(const View& view, FrameReport& report) {
     checkStop(view.control);
     Image image = state_->target->read();
     const GlGathered gathered{mode(), depthRange(scene_.mesh->bounds, view.camera),
-                              depthReferenceOf(scene_.mesh->bounds, frame, units_), units_.length, scene_.settings.contributions.sums};
-    const std::vector<std::uint32_t> doubtful = resolveOrderFree(image, gathered, scalarColors_);
-    report.doubtfulPixels.insert(report.doubtfulPixels.end(), doubtful.begin(), doubtful.end());
+                              depthReferenceOf(scene_.mesh->bounds, frame, units_), units_.length,
+                              scene_.settings.contributions.sums};
+    const std::vector<std::uint32_t> uncertain = resolveOrderFree(image, gathered, scalarColors_);
+    report.uncertainPixels.insert(report.uncertainPixels.end(), uncertain.begin(), uncertain.end());
     stages["read back"] = watch.lap();
     report.frameMilliseconds = whole.lap();
     if (scene_.settings.order == OrderMethod::Centroid)  // to be measured, and not part of what it takes

@@ -47,22 +47,22 @@ vec4 smoothNormal() {
 }
 #endif
 
-// Where the middle of the segment between rho.x and rho.y lies.
-void setMiddle(CellRecord cell, vec2 rho, float dx, float dy, vec2 fromCentre) {
+// Where the middle of the segment between inverseDepth.x and inverseDepth.y lies.
+void setMiddle(CellRecord cell, vec2 inverseDepth, float dx, float dy, vec2 fromCentre) {
 #if TETRALUX_ORTHOGRAPHIC
-    float constant = 1.0, nearness = 0.5 * (rho.x + rho.y);
+    float constant = 1.0, rayInverseDepth = 0.5 * (inverseDepth.x + inverseDepth.y);
     middlePlace = perLength * (fromCentre.x * viewRight + fromCentre.y * viewDown) +
-                  (beyondReference(cell) - abs(cell.scale) * nearness) * viewForward;
+                  (beyondReference(cell) - abs(cell.scale) * rayInverseDepth) * viewForward;
 #else
-    vec2 ratio = vec2(depthRatio(rho.x), depthRatio(rho.y));
-    float constant = 0.5 * (ratio.x + ratio.y), nearness = 0.5 * (ratio.x * rho.x + ratio.y * rho.y);
-    middlePlace = 0.5 * (depthBeyond(cell, rho.x) + depthBeyond(cell, rho.y)) * viewForward +
+    vec2 ratio = vec2(depthRatio(inverseDepth.x), depthRatio(inverseDepth.y));
+    float constant = 0.5 * (ratio.x + ratio.y), rayInverseDepth = 0.5 * (ratio.x * inverseDepth.x + ratio.y * inverseDepth.y);
+    middlePlace = 0.5 * (depthBeyond(cell, inverseDepth.x) + depthBeyond(cell, inverseDepth.y)) * viewForward +
                   cell.scale * constant * (fromCentre.x * viewRight + fromCentre.y * viewDown);
 #endif
 #if TETRALUX_ATTRIBUTES
     for (int k = 0; k < 4; ++k) {
-        float face = planeRho(cell.plane[k].x, cell.plane[k].y, cell.plane[k].z, dx, dy);
-        middleWeight[k] = clamp(eyeWeight[k] * (nearness - constant * face), 0.0, 1.0);
+        float face = planeInverseDepth(cell.plane[k].x, cell.plane[k].y, cell.plane[k].z, dx, dy);
+        middleWeight[k] = clamp(eyeWeight[k] * (rayInverseDepth - constant * face), 0.0, 1.0);
     }
     middleWeight /= max(middleWeight.x + middleWeight.y + middleWeight.z + middleWeight.w, 1e-30);
 #endif

@@ -3,7 +3,7 @@
 
 #include <glm/geometric.hpp>
 
-#include <projection/cells/ray_nearness.h>
+#include <projection/cells/ray_inverse_depth.h>
 
 namespace tetralux::projection {
 
@@ -25,16 +25,17 @@ void GlLimits::store(GLuint texture, int width, int height, const std::vector<gl
 }
 
 void GlLimits::upload(const PixelMaps& maps, const CameraFrame& frame, const SceneUnits& units, double depthReference) {
-    const NearnessMaps nearness = nearnessMaps(maps, frame, units, depthReference);
+    const InverseDepthMaps rayInverseDepth = inverseDepthMaps(maps, frame, units, depthReference);
     const std::size_t count = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
-    std::vector<glm::vec4> texels(count, glm::vec4(noNearnessLimit, -noNearnessLimit, 1.0f, noNearnessLimit)),
+    std::vector<glm::vec4> texels(count,
+                                  glm::vec4(noInverseDepthLimit, -noInverseDepthLimit, 1.0f, noInverseDepthLimit)),
         normals(count);
     for (std::size_t i = 0; i < count; ++i) {
-        if (!nearness.nearest.empty()) texels[i].x = nearness.nearest[i];
-        if (!nearness.farthest.empty()) texels[i].y = nearness.farthest[i];
+        if (!rayInverseDepth.nearest.empty()) texels[i].x = rayInverseDepth.nearest[i];
+        if (!rayInverseDepth.farthest.empty()) texels[i].y = rayInverseDepth.farthest[i];
         if (!maps.extinctionScale.empty()) texels[i].z = maps.extinctionScale[i];
         if (maps.cutLayerEnd.empty()) continue;
-        texels[i].w = nearness.cutLayerEnd[i];
+        texels[i].w = rayInverseDepth.cutLayerEnd[i];
         normals[i] = glm::vec4(maps.cutNormal[i], 0.0f);
     }
     store(textures_[0], frame.width, frame.height, texels);

@@ -9,8 +9,8 @@
 
 namespace tetralux::projection {
 
-/// Limits of each pixel's ray and normals of cuts. Nearness is zRef/z − 1, orthographic zRef − z, z the depth in scene
-/// lengths; `depthReference` is zRef.
+/// Limits of each pixel's ray and normals of cuts. Inverse depth is zRef/z − 1, orthographic zRef − z, z the depth in
+/// scene lengths; `depthReference` is zRef.
 class GlLimits {
 public:
     explicit GlLimits(const GlFunctions& gl);

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a segment shows in the modes and classifications that do not integrate it front to back. Scalars and lengths in scene units;
-// `path` is what extinction is per unit of. Needs preint/gather_segment.glsl.
+// What a segment shows in the modes and classifications that do not integrate it front to back. Scalars and lengths
+// in scene units; `path` is what extinction is per unit of. Needs preint/gather_segment.glsl.
 
 #if TETRALUX_SUPPORTS
 uniform vec3 support[TETRALUX_SUPPORTS];  // ShownScalars (projection/core/transfer_support.h): low, high, whether low shows
 #endif
 
-// Post-classification (Kraus 2005, Equations 10 and 11): the sample in the middle stands for the segment. On the table's diagonal
-// stand colour and extinction themselves. Pre-classification takes those of the vertices, interpolated.
+// Post-classification (Kraus 2005, Equations 10 and 11): the sample in the middle stands for the segment. On the
+// table's diagonal stand colour and extinction themselves. Pre-classification takes those of the vertices,
+// interpolated.
 Gathered sampledSegment(float front, float back, float path) {
 #if TETRALUX_SAMPLE_AT >= 0
     float extinction = attributeAt(TETRALUX_SAMPLE_AT + 3);
@@ -16,9 +17,9 @@ Gathered sampledSegment(float front, float back, float path) {
 #else
     float s = 0.5 * (front + back);
     int zone = 0;
-#if TETRALUX_INTERFACES
+#if TETRALUX_DISCONTINUITIES
     int below = 0;
-    for (int i = 0; i < TETRALUX_INTERFACES; ++i) below += int(interfaceValue[i] <= s);
+    for (int i = 0; i < TETRALUX_DISCONTINUITIES; ++i) below += int(discontinuityValue[i] <= s);
     zone = zoneAfter[below];
 #endif
     vec4 entry = tableEntry(zone, s, s, 0.0);
@@ -27,8 +28,8 @@ Gathered sampledSegment(float front, float back, float path) {
 }
 
 #if TETRALUX_MODE == TETRALUX_MODE_ADDITIVE || TETRALUX_PER_CELL
-// What a segment shows where nothing within it is hidden: ∫ c τ and ∫ τ over the path, and the isosurfaces that it crosses. The table's
-// first slice holds the mean colour of thin segments.
+// What a segment shows where nothing within it is hidden: ∫ c τ and ∫ τ over the path, and the isosurfaces that it
+// crosses. The table's first slice holds the mean colour of thin segments.
 struct Emitted {
     vec3 smoothColor, layerColor;  // times depth, times weight
     float smoothDepth, layerWeight;
@@ -48,27 +49,27 @@ void addEmitted(int zone, float front, float back, float path, inout Emitted sum
 
 Emitted emittedSegment(float front, float back, float path) {
     Emitted sum = Emitted(vec3(0.0), vec3(0.0), 0.0, 0.0);
-#if TETRALUX_INTERFACES
+#if TETRALUX_DISCONTINUITIES
     float low = min(front, back), high = max(front, back);
     int first = 0, end = 0;
-    for (int i = 0; i < TETRALUX_INTERFACES; ++i) {
-        first += int(interfaceValue[i] <= low);
-        end += int(interfaceValue[i] <= high);
+    for (int i = 0; i < TETRALUX_DISCONTINUITIES; ++i) {
+        first += int(discontinuityValue[i] <= low);
+        end += int(discontinuityValue[i] <= high);
     }
     int crossed = end - first;
     bool rising = front < back;
     float at = front;
     for (int n = 0; n <= crossed; ++n) {
         int next = select(rising, first + n, end - 1 - n);
-        float to = n < crossed ? interfaceValue[next] : back;
+        float to = n < crossed ? discontinuityValue[next] : back;
         int zone = zoneAfter[crossed == 0 ? first : select(rising, next, next + 1)];
         addEmitted(zone, at, to, crossed == 0 ? path : path * abs(to - at) / (high - low), sum);
         if (n < crossed) {
-            vec4 layer = interfaceLayer[next];
+            vec4 layer = discontinuityLayer[next];
 #if TETRALUX_PER_CELL
             float weight = layer.w > 0.0 ? 1.0 : 0.0;
 #else
-            float weight = opacityOf(layer.w * interfaceScale);
+            float weight = opacityOf(layer.w * isosurfaceScale);
 #endif
             sum.layerColor += weight * layer.rgb;
             sum.layerWeight += weight;
@@ -87,7 +88,7 @@ Emitted emittedSegment(float front, float back, float path) {
 Gathered contributionsOf(float front, float back, float path) {
 #if TETRALUX_SAMPLED
     Gathered taken = sampledSegment(front, back, path);
-    return Gathered(taken.meanColor, 0.0, 0.0, path > 0.0 && taken.meanExtinction > 0.5 ? interfaceScale : 0.0);
+    return Gathered(taken.meanColor, 0.0, 0.0, path > 0.0 && taken.meanExtinction > 0.5 ? isosurfaceScale : 0.0);
 #else
     Emitted shown = emittedSegment(front, back, path);
     vec3 color = shown.layerColor;
@@ -96,7 +97,7 @@ Gathered contributionsOf(float front, float back, float path) {
         color += shown.smoothColor / shown.smoothDepth;
         count += 1.0;
     }
-    return Gathered(color / max(count, 1.0), 0.0, 0.0, count * interfaceScale);
+    return Gathered(color / max(count, 1.0), 0.0, 0.0, count * isosurfaceScale);
 #endif
 }
 #elif TETRALUX_MODE == TETRALUX_MODE_ADDITIVE && !TETRALUX_SAMPLED
@@ -119,10 +120,10 @@ float firstShown(float front, float back) {
         if (begin != end || constant) nearest = min(nearest, abs(begin - front));
     }
 #endif
-#if TETRALUX_INTERFACES
-    for (int i = 0; i < TETRALUX_INTERFACES; ++i) {
-        bool crossed = crossesValue(front, back, interfaceValue[i]);
-        if (interfaceLayer[i].w > 0.0 && crossed) nearest = min(nearest, abs(interfaceValue[i] - front));
+#if TETRALUX_DISCONTINUITIES
+    for (int i = 0; i < TETRALUX_DISCONTINUITIES; ++i) {
+        bool crossed = crossesValue(front, back, discontinuityValue[i]);
+        if (discontinuityLayer[i].w > 0.0 && crossed) nearest = min(nearest, abs(discontinuityValue[i] - front));
     }
 #endif
     return nearest;

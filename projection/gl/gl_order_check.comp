@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether drawn cells stand as the faces ask that two of them share (visibility_relations.h); one that does not leaves the frame to the processor.
+// Whether drawn cells stand as the faces ask that two of them share (visibility_relations.h); one that does not
+// leaves the frame to the processor.
 layout(std430, binding = 3) readonly buffer Keyed { uvec2 keyed[]; };  // nearest first
 layout(std430, binding = 4) readonly buffer Places { uint places[]; };
 layout(std430, binding = 5) readonly buffer Neighbours { uvec4 neighbours[]; };
 
-// On which side of face k the eye is, as CellProjector::eyeSide has it: by ascending point numbers, so that both cells compute the same.
+// On which side of face k the eye is, as CellProjector::eyeSide has it: by ascending point numbers, so that both
+// cells compute the same.
 double eyeSide(uvec4 points, int k) {
     uvec3 p = uvec3(points[faceVertex(k, 0)], points[faceVertex(k, 1)], points[faceVertex(k, 2)]);
     bool odd = false;

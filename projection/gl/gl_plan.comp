@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the rest of the frame does, once it is known how many cells cover pixels: by one group. The range of all keys stands after the last group's.
+// What the rest of the frame does, once it is known how many cells cover pixels: by one group. The range of all keys
+// stands after the last group's.
 layout(std430, binding = 1) readonly buffer GroupCounts { uint groupCounts[]; };
 layout(std430, binding = 2) buffer GroupRanges { dvec2 groupRanges[]; };
 

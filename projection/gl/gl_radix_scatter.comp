@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Last step of a pass of the radix sort (gl_radix_sort.h): each cell goes to where its digit begins, after those of the same digit before it.
+// Last step of a pass of the radix sort (gl_radix_sort.h): each cell goes to where its digit begins, after those of
+// the same digit before it.
 layout(std430, binding = 1) readonly buffer Keyed { uvec2 keyed[]; };
 layout(std430, binding = 2) readonly buffer DigitPlaces { uint digitPlaces[]; };  // where block b's begin: [digit·blocks + b]
 layout(std430, binding = 3) writeonly buffer Sorted { uvec2 sorted[]; };

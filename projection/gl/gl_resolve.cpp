@@ -23,11 +23,11 @@ float clearValue(Mode mode) {
 std::vector<std::uint32_t> resolveOrderFree(Image& image, const GlGathered& frame, const ScalarColors& colors) {
     const Mode mode = frame.mode;
     if (!orderFree(mode) && mode != Mode::Depth) return {};
-    tbb::enumerable_thread_specific<std::vector<std::uint32_t>> doubtful;
+    tbb::enumerable_thread_specific<std::vector<std::uint32_t>> uncertain;
     const auto resolve = [&](const glm::vec4& gathered, std::uint32_t pixel) -> glm::vec4 {
         const auto colorOf = [&](bool met, float scalar) {
             if (!met) return glm::vec4(0);
-            if (colors.doubts(scalar)) doubtful.local().push_back(pixel);
+            if (colors.isUncertain(scalar)) uncertain.local().push_back(pixel);
             return glm::vec4(glm::vec3(colors.at(scalar)), 1.0f);
         };
         switch (mode) {
@@ -58,7 +58,7 @@ std::vector<std::uint32_t> resolveOrderFree(Image& image, const GlGathered& fram
             image.pixels[i] = resolve(image.pixels[i], static_cast<std::uint32_t>(i));
     });
     std::vector<std::uint32_t> all;
-    for (const auto& part : doubtful) all.insert(all.end(), part.begin(), part.end());
+    for (const auto& part : uncertain) all.insert(all.end(), part.begin(), part.end());
     return all;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A gathered segment (preint/gather_segment.glsl) with silhouette and light. Scalars and lengths in scene units (projection/cells/cell_setup.h).
+// A gathered segment (preint/gather_segment.glsl) with silhouette and light. Scalars and lengths in scene units
+// (projection/cells/cell_setup.h).
 
 #if TETRALUX_GRADIENT_OPACITY
 uniform float gradientOpacity;
@@ -19,9 +20,9 @@ bool segmentShows(float front, float back) {
         shows = shows || showsBetween(low, high, support[i].x, support[i].y, support[i].z > 0.0);
     }
 #endif
-#if TETRALUX_INTERFACES
-    for (int i = 0; i < TETRALUX_INTERFACES; ++i) {
-        shows = shows || (interfaceLayer[i].w > 0.0 && crossesValue(front, back, interfaceValue[i]));
+#if TETRALUX_DISCONTINUITIES
+    for (int i = 0; i < TETRALUX_DISCONTINUITIES; ++i) {
+        shows = shows || (discontinuityLayer[i].w > 0.0 && crossesValue(front, back, discontinuityValue[i]));
     }
 #endif
     return shows;
@@ -40,9 +41,9 @@ vec3 fieldNormal;     // unit
 // What the isosurfaces of the segment's cell leave of light that comes from `towards`.
 float surfaceShadows(vec3 towards) {
     float through = 1.0, rise = dot(fieldNormal, towards);
-#if TETRALUX_INTERFACES
-    for (int i = 0; i < TETRALUX_INTERFACES; ++i) {
-        through *= surfaceShadow(interfaceValue[i], opacityOf(interfaceLayer[i].w), segmentScalars.x, segmentScalars.y, segmentScalars.z,
+#if TETRALUX_DISCONTINUITIES
+    for (int i = 0; i < TETRALUX_DISCONTINUITIES; ++i) {
+        through *= surfaceShadow(discontinuityValue[i], opacityOf(discontinuityLayer[i].w), segmentScalars.x, segmentScalars.y, segmentScalars.z,
                                  segmentScalars.w, rise);
     }
 #endif
@@ -68,11 +69,11 @@ vec4 shadedSegment(float front, float back, float len, float fallSide, vec3 view
 #if TETRALUX_DATA_SPACE && !TETRALUX_SCALE_INVARIANT
     path = dataPath(front, back);  // looked up as a length, so that it can be scaled
 #endif
-    path *= interfaceScale;
+    path *= isosurfaceScale;
 #if TETRALUX_PER_CELL
     Gathered segment = contributionsOf(front, back, TETRALUX_DATA_SPACE != 0 ? abs(front - back) : len);
 #elif TETRALUX_SAMPLED
-    Gathered segment = sampledSegment(front, back, TETRALUX_DATA_SPACE != 0 ? dataPath(front, back) * interfaceScale : path);
+    Gathered segment = sampledSegment(front, back, TETRALUX_DATA_SPACE != 0 ? dataPath(front, back) * isosurfaceScale : path);
 #elif TETRALUX_MODE == TETRALUX_MODE_ADDITIVE
     Gathered segment = emittedMean(front, back, path);
 #else
@@ -115,8 +116,8 @@ vec4 shadedSegment(float front, float back, float len, float fallSide, vec3 view
     if (gradient.w > 0.0 || TETRALUX_SMOOTH_SILHOUETTE != 0) opacity = approximateSilhouetteOpacity(opacityOf(plain), plain, depth);
 #endif
 #if TETRALUX_SILHOUETTE && !TETRALUX_SMOOTH_SILHOUETTE && !TETRALUX_DATA_SPACE && TETRALUX_MODE != TETRALUX_MODE_FIRST_HIT
-    // Floats hold the cosine n·d to some 2e-7. Where they do not hold what silhouettes make of it to 1e-4 the pixel is no number, and is
-    // composed again in double (exact_repair.h).
+    // Floats hold the cosine n·d to some 2e-7. Where they do not hold what silhouettes make of it to 1e-4 the pixel
+    // is no number, and is composed again in double (exact_repair.h).
     float change = depth * 2e-7 / max(abs(cosine), 1e-30);
 #if TETRALUX_MODE == TETRALUX_MODE_ADDITIVE
     change /= max(depth, 1.0);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Puts each run of cells with equal whole-number keys in the order of their keys as doubles (key_sort.cpp). A run that is too long for one lane
-// leaves the frame to the processor: so does a layer of a grid that is seen along an axis without perspective. (Checking relations afterwards would not
-// do, since cells that are not drawn may stand between two that are.)
+// Puts each run of cells with equal whole-number keys in the order of their keys as doubles (key_sort.cpp). A run
+// that is too long for one lane leaves the frame to the processor: so does a layer of a grid that is seen along an
+// axis without perspective. (Checking relations afterwards would not do, since cells that are not drawn may stand
+// between two that are.)
 layout(std430, binding = 1) buffer Keyed { uvec2 keyed[]; };
 layout(std430, binding = 2) readonly buffer KeyPlanes { dvec4 keyPlanes[]; };
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What preint/table_lookup.glsl asks for: the table as a texture, and how it is filtered. What is fixed for a scene is a constant here, so
-// that the compiler folds it into its neighbours.
+// What preint/table_lookup.glsl asks for: the table as a texture, and how it is filtered. What is fixed for a scene
+// is a constant here, so that the compiler folds it into its neighbours.
 const float tableSize = TETRALUX_TABLE_SIZE;
 const float tableSlices = TETRALUX_TABLE_SLICES;
 const float tableLengthMax = TETRALUX_TABLE_LENGTH_MAX;
 const float tableLengthScale = TETRALUX_TABLE_LENGTH_SCALE;
-#if TETRALUX_INTERFACES
+#if TETRALUX_DISCONTINUITIES
 uniform vec2 tableZone[TETRALUX_ZONES];
-uniform float interfaceValue[TETRALUX_INTERFACES];  // see preint/gather_segment.glsl
-uniform vec4 interfaceLayer[TETRALUX_INTERFACES];
-uniform int zoneAfter[TETRALUX_INTERFACES + 1];
+uniform float discontinuityValue[TETRALUX_DISCONTINUITIES];  // see preint/gather_segment.glsl
+uniform vec4 discontinuityLayer[TETRALUX_DISCONTINUITIES];
+uniform int zoneAfter[TETRALUX_DISCONTINUITIES + 1];
 #else
 const vec2 tableZone[1] = vec2[1](vec2(TETRALUX_ZONE_LOW, TETRALUX_ZONE_PER_SCALAR));
 #endif
@@ -39,7 +39,8 @@ vec4 tableTexel(float u, float v, float w) {
 #endif
 
 #else
-// Samplers of many devices have weights of 8 bits: too coarse for a table whose neighbouring texels differ by some 1e-2.
+// Samplers of many devices have weights of 8 bits: too coarse for a table whose neighbouring texels differ by some
+// 1e-2.
 struct TexelPair {
     int low, high;
     float weight;  // of high

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which tiles the cells of a chunk may touch: all that their outlines (gl_cell_buffer.h) do not miss and that are not finished. Run twice, with
-// TETRALUX_EMIT 0 to count them and with 1 to write them, in the cells' order.
+// Which tiles the cells of a chunk may touch: all that their outlines (gl_cell_buffer.h) do not miss and that are not
+// finished. Run twice, with TETRALUX_EMIT 0 to count them and with 1 to write them, in the cells' order.
 layout(std430, binding = 1) readonly buffer Vertices { vec2 corners[]; };
 layout(std430, binding = 2) readonly buffer TileStates { uvec4 tileStates[]; };  // gl_tile_draw.comp
 layout(std430, binding = 3) buffer CellPairs { uint cellPairs[]; };              // of the cells before, in the group

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A tile of the picture by one group, a pixel by each lane: the cells of its list, nearest first, composed over what the chunks before have left
-// (Kraus 2005, Equation 5, front to back). A tile ends early when all its pixels are finished. Parts of 8 × 4 pixels, 32 lanes that stand together,
-// walk along the cells that may hold one of theirs.
+// A tile of the picture by one group, a pixel by each lane: the cells of its list, nearest first, composed over what
+// the chunks before have left (Kraus 2005, Equation 5, front to back). A tile ends early when all its pixels are
+// finished. Parts of 8 × 4 pixels, 32 lanes that stand together, walk along the cells that may hold one of theirs.
 layout(std430, binding = 1) readonly buffer Pairs { uvec2 pairs[]; };      // tile, place of the cell in the chunk
 layout(std430, binding = 2) readonly buffer Ranges { uvec2 ranges[]; };    // of pairs, by tile
 layout(std430, binding = 3) readonly buffer Vertices { uvec4 vertices[]; };  // gl_cell_buffer.h

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which pixels a cell's outline (gl_cell_buffer.h; counter-clockwise) may hold: exact but for `slack`, on the side of too many. Outlines reach 4,096
-// pixels beyond the image, where float is good for 1e-3.
+// Which pixels a cell's outline (gl_cell_buffer.h; counter-clockwise) may hold: exact but for `slack`, on the side of
+// too many. Outlines reach 4,096 pixels beyond the image, where float is good for 1e-3.
 const float slack = 0.05;  // pixels
 
 struct Outline {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What becomes of a chunk's pairs of tile and cell (gl_tiles.h), once they are counted: the plan here is theirs. More than there is room for are left
-// alone; the frame is then drawn again.
+// What becomes of a chunk's pairs of tile and cell (gl_tiles.h), once they are counted: the plan here is theirs. More
+// than there is room for are left alone; the frame is then drawn again.
 layout(std430, binding = 1) readonly buffer GroupPairs { uint groupPairs[]; };
 layout(std430, binding = 2) buffer Demand { uint mostPairs, roughPairs; };
 

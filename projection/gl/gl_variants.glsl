@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the fragment texts are compiled for: TETRALUX_MODE is one of the numbers below, the rest 0 or 1 unless said otherwise.
+// What the fragment texts are compiled for: TETRALUX_MODE is one of the numbers below, the rest 0 or 1 unless said
+// otherwise.
 //
-//   TETRALUX_ORTHOGRAPHIC, TETRALUX_INTERFACES (how many), TETRALUX_SUPPORTS (how many), TETRALUX_LIGHTS (how many), TETRALUX_SILHOUETTE,
+//   TETRALUX_ORTHOGRAPHIC, TETRALUX_DISCONTINUITIES (how many), TETRALUX_SUPPORTS (how many), TETRALUX_LIGHTS (how many), TETRALUX_SILHOUETTE,
 //   TETRALUX_APPROXIMATE_SILHOUETTE, TETRALUX_GRADIENT_OPACITY, TETRALUX_GRADIENT (whether anything reads the cell's gradient),
 //   TETRALUX_LENGTH (whether anything reads the segment's length)
 //   TETRALUX_FULL_LIGHT       anything but the plain lights of shading/cell_shading.glsl; TETRALUX_ATTRIBUTES: vertices have some
@@ -34,8 +35,8 @@ TETRALUX_OF_CELL vec4 gradient;  // unit normal, magnitude in scene units
 #endif
 
 #if TETRALUX_LIMITS
-float interfaceScale = 1.0;  // of the pixel: factor of extinction
+float isosurfaceScale = 1.0;  // of the pixel: factor of extinction
 #else
-const float interfaceScale = 1.0;
+const float isosurfaceScale = 1.0;
 #endif
-#define TETRALUX_INTERFACE_SCALE interfaceScale
+#define TETRALUX_ISOSURFACE_SCALE isosurfaceScale

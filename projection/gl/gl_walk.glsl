@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Stands in for a table that misses the error that was asked for (preint/table_lookup.glsl): the same answer, found by walking along the
-// pieces between a transfer function's nodes. Rough functions need it, of which neighbouring texels know nothing of each other.
+// Stands in for a table that misses the error that was asked for (preint/table_lookup.glsl): the same answer, found
+// by walking along the pieces between a transfer function's nodes. Rough functions need it, of which neighbouring
+// texels know nothing of each other.
 //
 //   tableTexels    a column per piece: (low, high, extinction at low, at high), colour at low, colour at high; scalars ascend
 //   zonePiece[]    the first piece of each zone, and how many there are
 
-#if TETRALUX_INTERFACES
-uniform float interfaceValue[TETRALUX_INTERFACES];  // see preint/gather_segment.glsl
-uniform vec4 interfaceLayer[TETRALUX_INTERFACES];
-uniform int zoneAfter[TETRALUX_INTERFACES + 1];
+#if TETRALUX_DISCONTINUITIES
+uniform float discontinuityValue[TETRALUX_DISCONTINUITIES];  // see preint/gather_segment.glsl
+uniform vec4 discontinuityLayer[TETRALUX_DISCONTINUITIES];
+uniform int zoneAfter[TETRALUX_DISCONTINUITIES + 1];
 uniform int zonePiece[TETRALUX_ZONES + 1];
 #else
 const int zonePiece[2] = int[2](0, TETRALUX_WALK);
@@ -33,8 +34,9 @@ struct Walk {
     float opacity, through, meanExtinction;
 };
 
-// A run of lines, of (colour, extinction) from `front` to `back`, which is `share` of a segment whose depth is extinction times `path`:
-// in steps of at most half an optical depth, by Gauss's rule of three points, which errs by less than 1e-6 there.
+// A run of lines, of (colour, extinction) from `front` to `back`, which is `share` of a segment whose depth is
+// extinction times `path`: in steps of at most half an optical depth, by Gauss's rule of three points, which errs by
+// less than 1e-6 there.
 void addRun(TETRALUX_GLSL_INOUT(Walk) walk, vec4 front, vec4 back, float share, float path) {
     const vec3 places = vec3(0.1127016654, 0.5, 0.8872983346), weights = vec3(5.0, 8.0, 5.0) / 18.0;
     vec4 rise = back - front;

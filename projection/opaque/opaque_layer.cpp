@@ -182,21 +182,21 @@ public:
     void render() {
         bin();
         hits_.assign(static_cast<std::size_t>(frame_.width) * static_cast<std::size_t>(frame_.height), {});
-        veils_.resize(tileCount_);
+        translucent_.resize(tileCount_);
         tbb::parallel_for(std::size_t{0}, tileCount_, [&](std::size_t tile) { renderTile(tile); });
         for (std::size_t pixel = 0; pixel < hits_.size(); ++pixel)
             if (hits_[pixel].distance < infinite)
                 putOpaque(camera_, maps_, pixel, hits_[pixel].distance, hits_[pixel].color);
-        putVeils();
+        putTranslucent();
     }
 
 private:
     /// Those that nothing opaque hides, in their order.
-    void putVeils() {
-        for (const auto& part : veils_)
-            for (const Veil& veil : part)
-                if (veil.distance < hits_[veil.pixel].distance) maps_.veils.push_back(veil);
-        std::sort(maps_.veils.begin(), maps_.veils.end());
+    void putTranslucent() {
+        for (const auto& part : translucent_)
+            for (const TranslucentFragment& fragment : part)
+                if (fragment.distance < hits_[fragment.pixel].distance) maps_.translucent.push_back(fragment);
+        std::sort(maps_.translucent.begin(), maps_.translucent.end());
     }
 
     struct Hit {
@@ -275,7 +275,7 @@ private:
         forEachPixel(tile->box,
                      [&](int x, int y) { tile->rays[Tile::slot(tile->box, x, y)] = RayFrame(pixelRay(frame_, x, y)); });
         for (const IsolinePixels& lines : isolines_) tile->lines.push_back(lines.inTile(number));
-        for (const std::uint32_t index : members) meet(*tile, index, veils_[number]);
+        for (const std::uint32_t index : members) meet(*tile, index, translucent_[number]);
         forEachPixel(tile->box, [&](int x, int y) {
             const std::size_t slot = Tile::slot(tile->box, x, y);
             const auto& [distance, triangle, where] = tile->met[slot];
@@ -296,7 +296,7 @@ private:
     }
 
     /// Which of the tile's rays the triangle is the nearest to so far; of a slice with opacity, all that it meets.
-    void meet(Tile& tile, std::uint32_t index, std::vector<Veil>& veils) const {
+    void meet(Tile& tile, std::uint32_t index, std::vector<TranslucentFragment>& translucent) const {
         const Triangle& triangle = layer_.triangles_[index];
         const auto& [a, b, c] = triangle.corners;
         const std::array<glm::dvec3, 3> corners{layer_.positions_[a], layer_.positions_[b], layer_.positions_[c]};
@@ -316,7 +316,7 @@ private:
                 const double opacity = std::lerp(bare, 1.0, double{line.share});
                 if (line.share > 0) line.share /= static_cast<float>(opacity);  // of what shows: lines are opaque
                 const glm::dvec3 color = opacity * colorOf(triangle, *crossing, ray, t, line);
-                veils.push_back({static_cast<std::uint32_t>(pixelNumber(x, y)), t, glm::vec4(color, opacity)});
+                translucent.push_back({static_cast<std::uint32_t>(pixelNumber(x, y)), t, glm::vec4(color, opacity)});
                 return;
             }
             if (!(t < tile.met[slot].distance)) return;
@@ -372,11 +372,11 @@ private:
     const DepthRange depths_;
     PixelMaps& maps_;
     std::size_t tilesAcross_, tileCount_;
-    std::vector<IsolinePixels> isolines_;            // of each slice
-    std::vector<Hit> hits_;                          // by pixel
-    std::vector<std::vector<Veil>> veils_;           // by tile
-    std::vector<PixelBox> boxes_;                    // by triangle
-    std::vector<std::vector<std::uint32_t>> tiles_;  // triangles by tile
+    std::vector<IsolinePixels> isolines_;                        // of each slice
+    std::vector<Hit> hits_;                                      // by pixel
+    std::vector<std::vector<TranslucentFragment>> translucent_;  // by tile
+    std::vector<PixelBox> boxes_;                                // by triangle
+    std::vector<std::vector<std::uint32_t>> tiles_;              // triangles by tile
 };
 
 void OpaqueLayer::apply(const Camera& camera, PixelMaps& maps) const {

@@ -2,7 +2,7 @@
 /// \file
 /// Opaque slices and surfaces within the volume: found once per pixel in double precision, the same for all engines.
 /// An engine composes the volume only as far as them, and they are put under its picture: C = C_volume + T·C_layer.
-/// Slices with an opacity below 1 stand between parts of the volume (PixelMaps::veils).
+/// Slices with an opacity below 1 stand between parts of the volume (PixelMaps::translucent).
 #pragma once
 
 #include <array>
@@ -29,8 +29,8 @@ class OpaqueLayer final : public PixelMapSource {
 public:
     /// Cuts the slices out of the scene's mesh; its transfer function colours them, its lights fall on the surfaces.
     /// Where there are shadows, the volume and the scene's shadow casters cast them on surfaces and slices. Slices
-    /// whose opacity is below 1 become veils, isolines are opaque on any. \throws std::runtime_error when a slice
-    /// misses the mesh, or has an opacity in a mode that composes no parts.
+    /// whose opacity is below 1 become translucent fragments, isolines are opaque on any. \throws std::runtime_error
+    /// when a slice misses the mesh, or has an opacity in a mode that composes no parts.
     OpaqueLayer(const Scene& scene, const OpaqueObjects& objects);
 
     void apply(const Camera& camera, PixelMaps& maps) const override;

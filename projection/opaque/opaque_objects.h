@@ -14,7 +14,7 @@ namespace tetralux::projection {
 /// The plane through `point`; within the mesh it shows the transfer function's colour at the scalar there.
 struct Slice {
     glm::dvec3 point, normal;  ///< mesh units; normal of any length but 0
-    double opacity = 1.0;      ///< below 1 what lies behind shows too (veiled_volume.h)
+    double opacity = 1.0;      ///< below 1 what lies behind shows too (translucent_slices.h)
 };
 
 /// Lines on slices where the scalar has these values.
@@ -36,7 +36,7 @@ struct OpaqueSurface {
     glm::dvec3 color{0.8, 0.8, 0.8};
     bool flat = false;
     bool byField = false;  ///< in the transfer function's colours of its scalars, which it must have, instead
-    double opacity = 1.0;  ///< below 1 what lies behind shows too (veiled_volume.h)
+    double opacity = 1.0;  ///< below 1 what lies behind shows too (translucent_slices.h)
     /// Normals are interpolated across edges that are bent by less, degrees; not given: 40 where the scene's normals
     /// are smooth, else each triangle has its own.
     std::optional<double> featureAngle{};

@@ -134,11 +134,12 @@ public:
         Reentry all;
         for (Reentry& part : found) {
             all.edges.insert(all.edges.end(), part.edges.begin(), part.edges.end());
-            all.doubtfulPixels.insert(all.doubtfulPixels.end(), part.doubtfulPixels.begin(), part.doubtfulPixels.end());
+            all.uncertainPixels.insert(all.uncertainPixels.end(), part.uncertainPixels.begin(),
+                                       part.uncertainPixels.end());
         }
         tbb::parallel_sort(all.edges.begin(), all.edges.end());
         all.edges.erase(std::unique(all.edges.begin(), all.edges.end()), all.edges.end());
-        std::sort(all.doubtfulPixels.begin(), all.doubtfulPixels.end());
+        std::sort(all.uncertainPixels.begin(), all.uncertainPixels.end());
         return all;
     }
 
@@ -326,7 +327,7 @@ private:
                 hasLeft = true;
             }
         }
-        if (!clean || inside) found.doubtfulPixels.push_back(pixel);
+        if (!clean || inside) found.uncertainPixels.push_back(pixel);
     }
 
     const mesh::ScalarMesh& mesh_;

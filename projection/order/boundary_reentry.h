@@ -33,7 +33,7 @@ struct Reentry {
     /// (nearer, farther): a ray leaves the mesh from the first cell and comes back into the second. Unique, sorted.
     std::vector<std::pair<mesh::CellIndex, mesh::CellIndex>> edges;
     /// Pixels in which intervals of the mesh overlap or do not pair up, as y·width + x, ascending.
-    std::vector<std::uint32_t> doubtfulPixels;
+    std::vector<std::uint32_t> uncertainPixels;
 };
 
 /// `points`: the mesh's, before this frame's camera.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <projection/order/order_upkeep.h>
+#include <projection/order/incremental_sort.h>
 
 #include <algorithm>
 

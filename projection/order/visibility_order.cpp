@@ -14,8 +14,8 @@
 
 #include <projection/cells/cell_setup.h>
 #include <projection/order/boundary_reentry.h>
+#include <projection/order/incremental_sort.h>
 #include <projection/order/key_sort.h>
-#include <projection/order/order_upkeep.h>
 #include <projection/order/power_order.h>
 #include <projection/order/visibility_relations.h>
 
@@ -183,18 +183,18 @@ void invert(const std::vector<mesh::CellIndex>& order, std::vector<std::uint32_t
 
 /// Adds the pixels in which both cells of a pair that stands the wrong way round can be seen: a ray is composed wrongly
 /// only if two cells that follow one another along it do.
-void doubtPairs(const std::vector<CellPair>& wrong, const CellProjector& projector, const CameraFrame& frame,
-                std::vector<std::uint32_t>& doubtfulPixels) {
+void addUncertainPairs(const std::vector<CellPair>& wrong, const CellProjector& projector, const CameraFrame& frame,
+                       std::vector<std::uint32_t>& uncertainPixels) {
     for (const auto& [near, far] : wrong) {
         PixelRect a, b;
         if (projector.bounds(near, a) != SkipReason::None || projector.bounds(far, b) != SkipReason::None) continue;
         for (int y = std::max(a.y0, b.y0); y < std::min(a.y1, b.y1); ++y)
             for (int x = std::max(a.x0, b.x0); x < std::min(a.x1, b.x1); ++x)
-                doubtfulPixels.push_back(static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame.width) +
-                                         static_cast<std::uint32_t>(x));
+                uncertainPixels.push_back(static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame.width) +
+                                          static_cast<std::uint32_t>(x));
     }
-    std::sort(doubtfulPixels.begin(), doubtfulPixels.end());
-    doubtfulPixels.erase(std::unique(doubtfulPixels.begin(), doubtfulPixels.end()), doubtfulPixels.end());
+    std::sort(uncertainPixels.begin(), uncertainPixels.end());
+    uncertainPixels.erase(std::unique(uncertainPixels.begin(), uncertainPixels.end()), uncertainPixels.end());
 }
 
 bool sameView(const CameraFrame& a, const CameraFrame& b) {
@@ -206,10 +206,10 @@ bool sameView(const CameraFrame& a, const CameraFrame& b) {
 }  // namespace
 
 void VisibilitySorter::State::seeGaps(const CellProjector& projector) {
-    last.doubtfulPixels.clear();
+    last.uncertainPixels.clear();
     if (connected->boundary.empty()) return;
     Reentry reentry = findReentry(mesh, connected->boundary, projector.frame(), projector.points());
-    last.doubtfulPixels = std::move(reentry.doubtfulPixels);
+    last.uncertainPixels = std::move(reentry.uncertainPixels);
     relations->setGaps(std::move(reentry.edges));
 }
 
@@ -223,11 +223,11 @@ void VisibilitySorter::State::findOrder(const CellProjector& projector) {
     last.cyclicCells = 0;
     if (hasLast && relations->mostlyHold(last.places)) {
         const std::vector<CellPair> wrong = relations->violations(last.places);
-        last.upkeep = wrong.empty() ? "kept" : "repaired";
+        last.incrementalSort = wrong.empty() ? "kept" : "repaired";
         if (wrong.empty()) return;
         if (order->keys.empty() && repairOrder(*relations, wrong, last.frontToBack, last.places)) return;
     }
-    last.upkeep = "sorted";
+    last.incrementalSort = "sorted";
     if (!order->keys.empty()) {
         last.frontToBack = sortedByKeys(order->keys, frame);
         invert(last.frontToBack, last.places);
@@ -235,7 +235,8 @@ void VisibilitySorter::State::findOrder(const CellProjector& projector) {
     }
     sortByRelations(*relations, mesh, frame, nearer, last);
     invert(last.frontToBack, last.places);
-    if (last.cyclicCells > 0) doubtPairs(relations->violations(last.places), projector, frame, last.doubtfulPixels);
+    if (last.cyclicCells > 0)
+        addUncertainPairs(relations->violations(last.places), projector, frame, last.uncertainPixels);
 }
 
 const VisibilityOrder& VisibilitySorter::sort(const CameraFrame& frame) {
@@ -254,7 +255,7 @@ const VisibilityOrder& VisibilitySorter::sort(const CellProjector& projector) {
         }
         state.lastFrame = frame;
     } else {
-        state.last.upkeep = "kept";
+        state.last.incrementalSort = "kept";
     }
     return state.last;
 }
@@ -265,8 +266,8 @@ std::vector<std::uint32_t> VisibilitySorter::pixelsOutOfOrder(const CellProjecto
     state.connect();
     state.relations->see(projector);
     state.seeGaps(projector);
-    std::vector<std::uint32_t> pixels = std::exchange(state.last.doubtfulPixels, {});
-    doubtPairs(state.relations->violations(state.last.places), projector, projector.frame(), pixels);
+    std::vector<std::uint32_t> pixels = std::exchange(state.last.uncertainPixels, {});
+    addUncertainPairs(state.relations->violations(state.last.places), projector, projector.frame(), pixels);
     return pixels;
 }
 

@@ -18,13 +18,13 @@ namespace tetralux::projection {
 
 struct VisibilityOrder {
     std::vector<mesh::CellIndex> frontToBack;
-    std::vector<std::uint32_t> places;  ///< per cell: where it stands in frontToBack
-    std::string method;                 ///< "power", "mpvo", "mpvo+reentry", "centroid"
-    std::string upkeep = "sorted";      ///< or "kept", "repaired": what became of the last frame's order
-    std::uint64_t cyclicCells = 0;      ///< cells taken out of turn because no order exists
+    std::vector<std::uint32_t> places;       ///< per cell: where it stands in frontToBack
+    std::string method;                      ///< "power", "mpvo", "mpvo+reentry", "centroid"
+    std::string incrementalSort = "sorted";  ///< or "kept", "repaired": what became of the last frame's order
+    std::uint64_t cyclicCells = 0;           ///< cells taken out of turn because no order exists
     /// Pixels in which the order cannot be trusted (cycles, overlapping cells), as y·width + x, ascending. An engine
     /// that composites in this order has those pixels composed exactly by other means.
-    std::vector<std::uint32_t> doubtfulPixels;
+    std::vector<std::uint32_t> uncertainPixels;
 };
 
 /// Keeps what does not depend on the camera: the certificate of power order with its keys or, where there is none,

@@ -44,9 +44,9 @@ public:
         return count;
     }
 
-    /// A step of Kahn's sort: counts `cell` off `nearer` of the cells behind it and puts those of which none is left
-    /// at found. Returns how many have been found then; room for one more is needed. No branches: half of them would be
-    /// mispredicted.
+    /// A step of Kahn's sort: takes one off `nearer` of each cell behind `cell`, and appends the cells for which
+    /// nothing is left to `sorted`, which holds `found`. Returns how many it holds then; it needs room for one more. No
+    /// branches: half of them would be mispredicted.
     std::size_t release(mesh::CellIndex cell, std::uint32_t* nearer, mesh::CellIndex* sorted, std::size_t found) const {
         const unsigned sides = sides_[cell];
         const std::array<mesh::CellIndex, 4>& neighbours = adjacency_.neighbours[cell];

@@ -19,7 +19,7 @@
 #include <mesh/tet/cell_slope.h>
 #include <projection/cells/cell_setup.h>
 #include <projection/cells/cell_shading.h>
-#include <projection/core/lowered_isosurfaces.h>
+#include <projection/core/perturbed_isosurfaces.h>
 #include <projection/light/light_frame.h>
 #include <projection/reference/pixel_candidates.h>
 #include <projection/reference/reference_cut.h>
@@ -195,7 +195,7 @@ struct ReferenceRayCaster::Pass {
 };
 
 ReferenceRayCaster::ReferenceRayCaster(const Scene& scene)
-    : scene_(withTiesAbove(withVertexLight(scene), doubleTie)), exact_(scene_.transferFunction) {}
+    : scene_(withPerturbedIsosurfaces(withVertexLight(scene), doublePerturbation)), exact_(scene_.transferFunction) {}
 
 Image ReferenceRayCaster::render(const View& view, RayCastCounts& counts) const {
     Image image(view.camera.width, view.camera.height);
@@ -373,9 +373,10 @@ ReferenceRayCaster::PixelLimits ReferenceRayCaster::limitsAt(const PixelMaps* ma
     }
     if (!maps->extinctionScale.empty()) limits.extinctionScale = static_cast<double>(maps->extinctionScale[pixel]);
     const auto [first, last] =
-        std::equal_range(maps->veils.begin(), maps->veils.end(), Veil{static_cast<std::uint32_t>(pixel), 0.0, {}},
-                         [](const Veil& a, const Veil& b) { return a.pixel < b.pixel; });
-    limits.veils = {first, last};
+        std::equal_range(maps->translucent.begin(), maps->translucent.end(),
+                         TranslucentFragment{static_cast<std::uint32_t>(pixel), 0.0, {}},
+                         [](const TranslucentFragment& a, const TranslucentFragment& b) { return a.pixel < b.pixel; });
+    limits.translucent = {first, last};
     return limits;
 }
 
@@ -385,25 +386,26 @@ glm::dvec4 ReferenceRayCaster::colorOf(const Ray& ray, const PixelLimits& limits
         std::erase_if(segments, [&](RaySegment& s) { return !limit(s, limits.nearest, limits.farthest); });
     if (limits.cutLayerEnd > 0 && showsLight(scene_.settings)) splitAtLayerEnd(segments, limits.cutLayerEnd);
     const auto drawn = [&](const preint::ExactIntegral& exact) {
-        return limits.veils.empty() ? composite(ray, exact, limits, segments)
-                                    : betweenVeils(ray, exact, limits, segments);
+        return limits.translucent.empty() ? composite(ray, exact, limits, segments)
+                                          : betweenTranslucent(ray, exact, limits, segments);
     };
     if (limits.extinctionScale == 1.0) return drawn(exact_);
     return drawn(preint::ExactIntegral(scaledExtinction(scene_.transferFunction, limits.extinctionScale)));
 }
 
-/// The volume up to each veil, the veil, what lies behind the last.
-glm::dvec4 ReferenceRayCaster::betweenVeils(const Ray& ray, const preint::ExactIntegral& exact,
-                                            const PixelLimits& limits, const std::vector<RaySegment>& segments) const {
+/// The volume up to each translucent fragment, the translucent fragment, what lies behind the last.
+glm::dvec4 ReferenceRayCaster::betweenTranslucent(const Ray& ray, const preint::ExactIntegral& exact,
+                                                  const PixelLimits& limits,
+                                                  const std::vector<RaySegment>& segments) const {
     PixelLimits part = limits;
     glm::dvec4 sum(0);
     double begin = 0;
-    for (std::size_t i = 0; i <= limits.veils.size(); ++i) {
-        const double end = i < limits.veils.size() ? limits.veils[i].distance : HUGE_VAL;
+    for (std::size_t i = 0; i <= limits.translucent.size(); ++i) {
+        const double end = i < limits.translucent.size() ? limits.translucent[i].distance : HUGE_VAL;
         std::vector<RaySegment> within = segments;
         std::erase_if(within, [&](RaySegment& s) { return !limit(s, begin, end); });
         sum += (1.0 - sum.w) * composite(ray, exact, part, within);
-        if (i < limits.veils.size()) sum += (1.0 - sum.w) * glm::dvec4(limits.veils[i].color);
+        if (i < limits.translucent.size()) sum += (1.0 - sum.w) * glm::dvec4(limits.translucent[i].color);
         begin = end;
     }
     return sum;

@@ -29,8 +29,8 @@ struct RaySegment {
     bool inCutLayer = false;  ///< lit by the normal of a cut (PixelMaps::cutLayerEnd)
 };
 
-/// A share of the way from one scalar to another: from their difference, so that between equal numbers it is that number
-/// and between others none beyond them.
+/// A share of the way from one scalar to another: from their difference, so that between equal numbers it is that
+/// number and between others none beyond them.
 inline double scalarBetween(double from, double to, double share) {
     return share < 1.0 ? std::clamp(from + share * (to - from), std::min(from, to), std::max(from, to)) : to;
 }
@@ -38,8 +38,8 @@ inline double scalarBetween(double from, double to, double share) {
 struct RayCastCounts {
     std::uint64_t cellsDrawn = 0;  ///< cells that at least one ray meets
     std::uint64_t segments = 0;
-    std::uint64_t overlaps =
-        0;  ///< segments that begin clearly before the previous one ended: cells that interpenetrate
+    /// Segments that begin clearly before the previous one ended: cells that interpenetrate.
+    std::uint64_t overlaps = 0;
 };
 
 class ReferenceRayCaster {
@@ -64,14 +64,14 @@ private:
         double cutLayerEnd = 0.0;  ///< up to here light falls on `cutNormal`
         glm::dvec3 cutNormal{0};
         double extinctionScale = 1.0;
-        DepthRange depths{0.0, 1.0};                      ///< of the camera, the same for all pixels
-        std::span<const Veil> veils;                      ///< of the pixel, by distance
-        double pixelAtEye = 0.0, pixelPerDistance = 0.0;  ///< size of a pixel where a ray begins, and beyond
+        DepthRange depths{0.0, 1.0};                       ///< of the camera, the same for all pixels
+        std::span<const TranslucentFragment> translucent;  ///< of the pixel, by distance
+        double pixelAtEye = 0.0, pixelPerDistance = 0.0;   ///< size of a pixel where a ray begins, and beyond
     };
     static PixelLimits limitsAt(const PixelMaps* maps, std::size_t pixel);
     glm::dvec4 colorOf(const Ray& ray, const PixelLimits& limits, std::vector<RaySegment>& segments) const;
-    glm::dvec4 betweenVeils(const Ray& ray, const preint::ExactIntegral& exact, const PixelLimits& limits,
-                            const std::vector<RaySegment>& segments) const;
+    glm::dvec4 betweenTranslucent(const Ray& ray, const preint::ExactIntegral& exact, const PixelLimits& limits,
+                                  const std::vector<RaySegment>& segments) const;
     glm::dvec4 composite(const Ray& ray, const preint::ExactIntegral& exact, const PixelLimits& limits,
                          std::vector<RaySegment>& segments) const;
 

@@ -11,7 +11,7 @@
 #include <tbb/task_arena.h>
 
 #include <projection/core/clip_region.h>
-#include <projection/core/lowered_isosurfaces.h>
+#include <projection/core/perturbed_isosurfaces.h>
 #include <projection/frame/engine_registry.h>
 #include <projection/frame/shown_points.h>
 #include <projection/frame/suggested_extinction.h>

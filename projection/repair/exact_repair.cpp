@@ -14,7 +14,7 @@
 #include <projection/repair/eye_contact.h>
 #include <projection/repair/float_limits.h>
 #include <projection/repair/isosurface_outlines.h>
-#include <projection/repair/isosurface_ties.h>
+#include <projection/repair/isosurface_perturbation.h>
 #include <projection/repair/uncertain_pixels.h>
 
 namespace tetralux::projection {
@@ -114,17 +114,17 @@ private:
     UncertainPixels uncertainPixels(const Camera& camera, const Image& image, const FrameReport& report) const {
         CameraFrame frame = cameraFrame(camera);
         UncertainPixels pixels(image.pixels.size());
-        pixels.add(Doubt::Order, report.doubtfulPixels);
+        pixels.add(Doubt::Order, report.uncertainPixels);
         pixels.add(Doubt::NotANumber, pixelsNotFinite(image));
         if (touchingShows()) {
-            pixels.add(Doubt::EdgeMet, tiedEdgePixels(scene_, frame));
+            pixels.add(Doubt::EdgeMet, perturbedEdgePixels(scene_, frame));
             if (!frame.orthographic) addEyeContact(frame, pixels);
         }
         if (outlines_) pixels.add(Doubt::Outline, outlines_->pixels(frame));
         if (!beyondFloat_.empty()) addPixelsOf(beyondFloat_, blockMargin, Doubt::BeyondFloat, frame, pixels);
         if (!report.floatSamples) return pixels;
         frame.sampleShift = *report.floatSamples;
-        if (frame.sampleShift.x > EdgeOnPlanes::barely.x) pixels.add(Doubt::Outline, tiedPixels(scene_, frame));
+        if (frame.sampleShift.x > EdgeOnPlanes::barely.x) pixels.add(Doubt::Outline, perturbedPixels(scene_, frame));
         pixels.add(Doubt::FaceEdgeOn, edgeOnFaces_.pixels(frame, edgeOnFaces_.candidates(frame)));
         return pixels;
     }

@@ -7,9 +7,9 @@
 
 namespace tetralux::projection {
 
-/// Cells upon whose boundary the eye stands as nearly as float tells. Such a cell begins or ends where the ray does: for a
-/// ray that goes away from it that is nothing, which rounding takes for a little, and pictures that take anything for
-/// something (first hit, extreme or mean scalar, depth) show it.
+/// Cells upon whose boundary the eye stands, as nearly as float tells. A ray that goes away from such a cell meets
+/// nothing of it, but rounding may make a tiny segment of that, and modes in which the smallest segment counts (first
+/// hit, extreme or mean scalar, depth) show it.
 struct EyeContact {
     std::vector<mesh::CellIndex> cells;
     bool onBoundary = false;  ///< of the mesh: some rays meet nothing

@@ -11,8 +11,7 @@
 // - Rays along the foot err by more, but those with scalars within 1/(k·L) of it are all that is not opaque, and of
 //   the cell's rays only a share of 1/(k·L·w) runs there: ε/w in the mean.
 // - ε is a few roundings of the largest scalar of the cell (scene units), not of the field's range: a foot at the
-// field's
-//   least value is met with the relative precision of float.
+//   field's least value is met with the relative precision of float.
 // Silhouettes divide depth by |n·d|, as if L were that much longer; for one ray in mostOblique it is longer still.
 //
 // In the scale-invariant integral the length is the scalar's step, L = w; and since that is the difference of two
@@ -34,7 +33,7 @@
 #include <glm/geometric.hpp>
 
 #include <projection/cells/cell_constants.h>
-#include <projection/core/lowered_isosurfaces.h>
+#include <projection/core/perturbed_isosurfaces.h>
 #include <projection/core/transfer_support.h>
 #include <projection/repair/cell_measures.h>
 
@@ -51,7 +50,7 @@ constexpr double scalarRounding = 4 * 0x1p-24;  // of a cell's largest scene sca
 constexpr double largestTableRise = 5e2;        // of the depth within a cell; chosen by trial: 3e3 left rmse of 1e-3
 constexpr double opaqueDepth = 20.0;            // exp(−20) is below float's step: more or less depth does not show
 constexpr double mostOblique = 16.0;
-constexpr double largestTieShift = 1e-2;  // of a cell's range, by which an isosurface stands elsewhere in float
+constexpr double largestPerturbation = 1e-2;  // of a cell's range, by which an isosurface stands elsewhere in float
 constexpr double largestColorError = 1e-4;
 constexpr double largestHiddenShare = 0.25;  // of a cell, which float takes for nothing or for something
 constexpr double leastFloat = 2e-38;         // scene scalars below it are none to float
@@ -329,8 +328,9 @@ private:
         bool crossed = false;
         for (const auto& surface : function_.isosurfaces) {
             if (!(surface.opacity > 0)) continue;
-            crossed = crossed || (surface.value >= scalars.low && surface.value - floatTie * range_ <= scalars.high);
-            if (tied(scalars, surface.value)) return true;
+            crossed =
+                crossed || (surface.value >= scalars.low && surface.value - floatPerturbation * range_ <= scalars.high);
+            if (perturbed(scalars, surface.value)) return true;
         }
         if (!crossed && !use_.scalarsShow) return false;
         const CellShape shape = shapeOf(mesh_, cell);
@@ -341,15 +341,15 @@ private:
     /// Whether an isosurface lies within the scalar's error of a face that is level, or nearly so: then its two cells
     /// do not agree in many pixels on which of them it crosses. Isosurfaces stand lower in float by what is no matter.
     bool missesLevelFace(mesh::CellIndex cell, double error) const {
-        const double tie = floatTie * range_;
-        if (error <= tie) return false;
+        const double perturbation = floatPerturbation * range_;
+        if (error <= perturbation) return false;
         for (const auto& face : mesh::faceVertices) {
             const double a = mesh_.scalarAt(cell, face[0]), b = mesh_.scalarAt(cell, face[1]),
                          c = mesh_.scalarAt(cell, face[2]);
             const double low = std::min({a, b, c}), high = std::max({a, b, c});
             if (high - low > levelFace * error) continue;
             for (const auto& surface : function_.isosurfaces)
-                if (surface.opacity > 0 && surface.value >= low - error && surface.value <= high + error + tie)
+                if (surface.opacity > 0 && surface.value >= low - error && surface.value <= high + error + perturbation)
                     return true;
         }
         return false;
@@ -357,9 +357,9 @@ private:
 
     /// Whether scalars that hardly differ lie between the places of an isosurface in double and in float, or the latter
     /// within rounding.
-    bool tied(const CellScalars& scalars, double value) const {
-        const double farthest = (floatTie + scalarRounding) * range_;
-        return scalars.width() * largestTieShift < farthest && scalars.low < value - doubleTie * range_ &&
+    bool perturbed(const CellScalars& scalars, double value) const {
+        const double farthest = (floatPerturbation + scalarRounding) * range_;
+        return scalars.width() * largestPerturbation < farthest && scalars.low < value - doublePerturbation * range_ &&
                scalars.high >= value - farthest;
     }
 

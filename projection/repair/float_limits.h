@@ -32,8 +32,8 @@ struct FloatUse {
 /// least altitude h errs by up to 1e-7·e/h of its range. An isosurface within the range of a cell with e/h > 3000 may
 /// be met twice or never, since that cell and its neighbour differ about the scalar on their face; with `scalarsShow`
 /// such cells count anywhere. So do cells whose scalars differ by so little that they lie, or might, between the places
-/// that isosurface_ties.h gives an isosurface in float and in double, and flat cells with a face upon which the scalar
-/// is, nearly, that of an isosurface everywhere. Ramps of extinction and of colour, and jumps: float_limits.cpp;
+/// that isosurface_perturbation.h gives an isosurface in float and in double, and flat cells with a face upon which the
+/// scalar is, nearly, that of an isosurface everywhere. Ramps of extinction and of colour, and jumps: float_limits.cpp;
 /// with `fromTable` also cells in which depth rises by hundreds, unless extinction only rises over the range. Nothing
 /// counts where the whole cell is opaque, but where light adds up. Empty for every scene but those of extreme
 /// extinction, steepness or flatness: engines have the pixels of these cells composed exactly.

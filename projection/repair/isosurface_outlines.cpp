@@ -13,7 +13,7 @@
 
 #include <mesh/tet/adjacency.h>
 #include <projection/cells/cell_setup.h>
-#include <projection/core/lowered_isosurfaces.h>
+#include <projection/core/perturbed_isosurfaces.h>
 #include <projection/repair/near_line.h>
 
 namespace tetralux::projection {
@@ -110,7 +110,7 @@ IsosurfaceOutlines::IsosurfaceOutlines(const Scene& scene) : mesh_(scene.mesh), 
     for (const preint::Isosurface& surface : scene.transferFunction.isosurfaces)
         if (surface.opacity > faintest || (stronger && surface.opacity > 0)) values_.push_back(surface.value);
     if (values_.empty() || mesh_->association == mesh::Association::Cell) return;
-    tie_ = floatTie * units_.scalarScale;
+    perturbation_ = floatPerturbation * units_.scalarScale;
     const auto crossed = gathered<mesh::CellIndex>(mesh_->cells.size(), [&](std::size_t cell, auto& found) {
         const mesh::Tetrahedron& c = mesh_->cells[cell];
         const auto& s = mesh_->scalars;
@@ -191,9 +191,10 @@ void IsosurfaceOutlines::addNear(const Line& line, const CameraFrame& frame, con
     const double value = values_[line.value],
                  rounding = std::max(cells_[line.front].rounding, cells_[line.behind].rounding);
     SeenLine middle, beside;
-    if (!see(face.lineAt(value - 0.5 * tie_), frame, middle)) return;
+    if (!see(face.lineAt(value - 0.5 * perturbation_), frame, middle)) return;
     double width = 0;
-    for (double limit : {value - tie_ - rounding, value + rounding})  // the isosurface stands up to tie_ lower
+    for (double limit :
+         {value - perturbation_ - rounding, value + rounding})  // the isosurface stands up to perturbation_ lower
         if (see(face.lineAt(limit), frame, beside))
             width = std::max({width, middle.distance(beside.ends[0]), middle.distance(beside.ends[1])});
     addNearLine(middle.ends[0], middle.ends[1], {0.0, std::min(alongAxis * width + leastWidth, mostWidth)}, frame,

@@ -18,9 +18,9 @@ namespace tetralux::projection {
 
 /// Where the number of times that a ray meets an isosurface changes from one side of a line in the image to the other:
 /// on faces where the surface ends (the mesh's boundary) or turns back (it faces the eye in one of the two cells and
-/// turns away in the other). A fast engine, whose scalars are floats and whose isosurfaces stand lower by floatTie
-/// (isosurface_ties.h), takes a ray that meets such a face within that of the isosurface's value for one of the other
-/// side, and a pixel may miss an opaque surface.
+/// turns away in the other). A fast engine, whose scalars are floats and whose isosurfaces stand lower by
+/// floatPerturbation (isosurface_perturbation.h), takes a ray that meets such a face within that of the isosurface's
+/// value for one of the other side, and a pixel may miss an opaque surface.
 class IsosurfaceOutlines {
 public:
     explicit IsosurfaceOutlines(const Scene& scene);
@@ -57,7 +57,7 @@ private:
     std::shared_ptr<const mesh::ScalarMesh> mesh_;
     SceneUnits units_;
     std::vector<double> values_;  ///< of isosurfaces that one pixel shows, ascending
-    double tie_ = 0;              ///< floatTie in the field's units
+    double perturbation_ = 0;     ///< floatPerturbation in the field's units
     std::vector<Cell> cells_;
     std::vector<Line> lines_;
 };

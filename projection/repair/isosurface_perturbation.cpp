@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <projection/repair/isosurface_ties.h>
+#include <projection/repair/isosurface_perturbation.h>
 
 #include <algorithm>
 #include <array>
@@ -22,9 +22,9 @@ namespace tetralux::projection {
 namespace {
 
 /// Pixels from the sample to the farthest line that it may lie behind.
-constexpr double tieDistance = 2.0 * EdgeOnPlanes::widest.x;
+constexpr double perturbationDistance = 2.0 * EdgeOnPlanes::widest.x;
 
-constexpr Nearness near{0.0, tieDistance}, exact{0.0, exactTie};
+constexpr PixelDistances near{0.0, perturbationDistance}, exact{0.0, exactDistance};
 
 using Corners = std::array<glm::dvec2, 3>;
 
@@ -37,11 +37,11 @@ struct SeenFace {
     bool edgeOn() const {
         const glm::dvec2 b = at[1] - at[0], c = at[2] - at[0];
         const double longest = std::max({glm::length(b), glm::length(c), glm::distance(at[1], at[2])});
-        return !(std::abs(b.x * c.y - b.y * c.x) > 2.0 * tieDistance * longest);
+        return !(std::abs(b.x * c.y - b.y * c.x) > 2.0 * perturbationDistance * longest);
     }
 };
 
-void addTies(const SeenFace& face, const CameraFrame& frame, std::vector<std::uint32_t>& pixels) {
+void addPerturbed(const SeenFace& face, const CameraFrame& frame, std::vector<std::uint32_t>& pixels) {
     std::array<glm::dvec2, 2> ends;
     std::size_t count = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -54,9 +54,9 @@ void addTies(const SeenFace& face, const CameraFrame& frame, std::vector<std::ui
 }
 
 /// Lines of an isosurface in the faces of one cell, and its edges.
-class CellTies {
+class CellPerturbations {
 public:
-    CellTies(const Scene& scene, const CameraFrame& frame)
+    CellPerturbations(const Scene& scene, const CameraFrame& frame)
         : scene_(scene),
           frame_(frame),
           pixelOf_(frame),
@@ -70,7 +70,7 @@ public:
     }
 
     /// Pixels that an edge of the cell, if it shows, or of what clip planes leave of it passes.
-    void addEdges(mesh::CellIndex cell, Nearness wanted, std::vector<std::uint32_t>& pixels) const {
+    void addEdges(mesh::CellIndex cell, PixelDistances wanted, std::vector<std::uint32_t>& pixels) const {
         std::array<glm::dvec2, 4> at;
         if (!see(scene_.mesh->cells[cell], at) || !shows(cell)) return;
         for (std::size_t i = 0; i < 4; ++i)
@@ -91,14 +91,15 @@ public:
                     seen.at[i] = at[static_cast<std::size_t>(face[i])];
                     seen.above[i] = mesh.scalarAt(cell, face[i]) - surface.value;
                 }
-                addTies(seen, frame_, pixels);
+                addPerturbed(seen, frame_, pixels);
             }
         }
     }
 
 private:
     /// The lines in which a plane cuts the cell's faces.
-    void addCut(mesh::CellIndex cell, const HalfSpace& cut, Nearness wanted, std::vector<std::uint32_t>& pixels) const {
+    void addCut(mesh::CellIndex cell, const HalfSpace& cut, PixelDistances wanted,
+                std::vector<std::uint32_t>& pixels) const {
         std::array<glm::dvec3, 4> p;
         std::array<double, 4> above;
         for (std::size_t k = 0; k < 4; ++k) {
@@ -160,21 +161,21 @@ std::vector<std::uint32_t> ofCells(const Scene& scene, mesh::CellIndex step, Add
 
 }  // namespace
 
-std::vector<std::uint32_t> tiedPixels(const Scene& scene, const CameraFrame& frame) {
+std::vector<std::uint32_t> perturbedPixels(const Scene& scene, const CameraFrame& frame) {
     if (scene.transferFunction.isosurfaces.empty()) return {};
-    const CellTies ties(scene, frame);
-    return ofCells(scene, 1, [&](mesh::CellIndex cell, auto& pixels) { ties.add(cell, pixels); });
+    const CellPerturbations perturbations(scene, frame);
+    return ofCells(scene, 1, [&](mesh::CellIndex cell, auto& pixels) { perturbations.add(cell, pixels); });
 }
 
-std::vector<std::uint32_t> tiedEdgePixels(const Scene& scene, const CameraFrame& frame) {
+std::vector<std::uint32_t> perturbedEdgePixels(const Scene& scene, const CameraFrame& frame) {
     constexpr mesh::CellIndex sampled = 4096;
-    const CellTies ties(scene, frame);
+    const CellPerturbations perturbations(scene, frame);
     const mesh::CellIndex step =
         static_cast<mesh::CellIndex>(scene.mesh->cells.size()) / sampled | 1;  // odd: in no rhythm of a grid
     const auto met =
-        ofCells(scene, step, [&](mesh::CellIndex cell, auto& pixels) { ties.addEdges(cell, exact, pixels); });
+        ofCells(scene, step, [&](mesh::CellIndex cell, auto& pixels) { perturbations.addEdges(cell, exact, pixels); });
     if (met.size() < 2) return {};
-    return ofCells(scene, 1, [&](mesh::CellIndex cell, auto& pixels) { ties.addEdges(cell, near, pixels); });
+    return ofCells(scene, 1, [&](mesh::CellIndex cell, auto& pixels) { perturbations.addEdges(cell, near, pixels); });
 }
 
 }  // namespace tetralux::projection

@@ -10,7 +10,7 @@
 
 namespace tetralux::projection {
 
-void addNearLine(glm::dvec2 a, glm::dvec2 b, Nearness wanted, const CameraFrame& frame,
+void addNearLine(glm::dvec2 a, glm::dvec2 b, PixelDistances wanted, const CameraFrame& frame,
                  std::vector<std::uint32_t>& pixels) {
     const int steep = std::abs(b.y - a.y) >= std::abs(b.x - a.x) ? 1 : 0, other = 1 - steep;
     const std::array size{frame.width, frame.height};

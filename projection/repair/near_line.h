@@ -11,13 +11,13 @@
 namespace tetralux::projection {
 
 /// Distances (pixels, along the image axis that a line is farther from) between a line and centres that are asked for.
-struct Nearness {
+struct PixelDistances {
     double least, most;
 };
 
 /// Appends the pixels (y·width + x) whose centre the line from `a` to `b` (pixel coordinates) passes at such a
 /// distance.
-void addNearLine(glm::dvec2 a, glm::dvec2 b, Nearness wanted, const CameraFrame& frame,
+void addNearLine(glm::dvec2 a, glm::dvec2 b, PixelDistances wanted, const CameraFrame& frame,
                  std::vector<std::uint32_t>& pixels);
 
 }  // namespace tetralux::projection

@@ -15,9 +15,9 @@ namespace tetralux::projection {
 enum class Doubt {
     Order,        ///< of its cells (visibility_order.h), or what the engine saw of it
     NotANumber,   ///< the engine said so itself, or computed none
-    EdgeMet,      ///< its ray runs along edges, where single cells show (isosurface_ties.h)
+    EdgeMet,      ///< its ray runs along edges, where single cells show (isosurface_perturbation.h)
     EyeTouched,   ///< by a cell that ends there (eye_contact.h)
-    Outline,      ///< of an isosurface (isosurface_outlines.h, isosurface_ties.h)
+    Outline,      ///< of an isosurface (isosurface_outlines.h, isosurface_perturbation.h)
     BeyondFloat,  ///< a cell is (float_limits.h)
     FaceEdgeOn,   ///< edge_on_faces.h
     Count

@@ -163,7 +163,7 @@ TEST(ExactIntegral, PartsCompositeToTheWhole) {
     std::mt19937_64 random(11);
     std::uniform_real_distribution<double> scalar(-0.1, 1.1), part(0.0, 1.0), exponent(-5.0, 1.0);
     for (const TransferFunction& function :
-         {samples::smooth(), samples::narrowTents(), samples::jumps(), samples::smoothWithPeaks()}) {
+         {samples::smooth(), samples::narrowTents(), samples::jumps(), samples::smoothWithIsosurfaces()}) {
         const ExactIntegral exact(function);
         for (int sample = 0; sample < 2000; ++sample) {
             const double front = scalar(random), back = scalar(random), length = std::pow(10.0, exponent(random));
@@ -193,7 +193,7 @@ TEST(ExactIntegral, ExtinctionIntegralIsTheDepthInDataSpace) {
 // Crossing is (front < v) ≠ (back < v): arriving at v from below counts, leaving v upwards does not; downwards it is
 // the other way round.
 TEST(ExactIntegral, IsosurfaceIsCrossedOnceByNeighbouringSegments) {
-    TransferFunction function = samples::peaks();
+    TransferFunction function = samples::isosurfaces();
     const ExactIntegral exact(function);
     const double v = function.isosurfaces[0].value, below = v - 0.1, above = v + 0.1;
     const double once = -std::log1p(-0.4);
@@ -209,7 +209,7 @@ TEST(ExactIntegral, IsosurfaceIsCrossedOnceByNeighbouringSegments) {
 }
 
 TEST(ExactIntegral, IsosurfacesAttenuateWhatLiesBehindThem) {
-    const ExactIntegral exact(samples::peaks());
+    const ExactIntegral exact(samples::isosurfaces());
     const SegmentResult rising = exact.segment(0.0, 1.0, 1.0, Integral::ScaleInvariant);
     const glm::dvec3 first{1.0, 0.2, 0.1}, second{0.1, 0.4, 1.0};
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(rising.color[i], 0.4 * first[i] + 0.6 * 0.7 * second[i], 1e-15);
@@ -219,7 +219,7 @@ TEST(ExactIntegral, IsosurfacesAttenuateWhatLiesBehindThem) {
 }
 
 TEST(ExactIntegral, IsosurfacesAtOneValueKeepTheirOrderFromBelow) {
-    TransferFunction function = samples::peaks();
+    TransferFunction function = samples::isosurfaces();
     function.isosurfaces = {{0.5, 0.5, {1, 0, 0}}, {0.5, 0.5, {0, 1, 0}}};
     const ExactIntegral exact(function);
     EXPECT_EQ(exact.segment(0.0, 1.0, 1.0, Integral::Standard).color, glm::dvec3(0.5, 0.25, 0.0));

@@ -107,8 +107,8 @@ TEST_P(TableAccuracy, SegmentsAlongOneScalar) {
 INSTANTIATE_TEST_SUITE_P(Functions, TableAccuracy,
                          testing::Values(Case{"constant", samples::constant(7.0)}, Case{"smooth", samples::smooth()},
                                          Case{"narrowTents", samples::narrowTents()}, Case{"jumps", samples::jumps()},
-                                         Case{"peaks", samples::peaks()},
-                                         Case{"smoothWithPeaks", samples::smoothWithPeaks()},
+                                         Case{"isosurfaces", samples::isosurfaces()},
+                                         Case{"smoothWithIsosurfaces", samples::smoothWithIsosurfaces()},
                                          Case{"viridis", resolved(preset("viridis"), 0.0, 1.0, 1.0)}),
                          [](const auto& suite) { return suite.param.name; });
 
@@ -162,11 +162,11 @@ TEST(PreintegrationTable, RecurrenceIsTheDirectIntegral) {
     }
 }
 
-TEST(PreintegrationTable, PeaksAloneAreExact) {
-    const ExactIntegral exact(samples::peaks());
+TEST(PreintegrationTable, IsosurfacesAloneAreExact) {
+    const ExactIntegral exact(samples::isosurfaces());
     const PreintegrationTable table = buildScaleInvariantTable(exact, 0.0, 1.0, {});
     EXPECT_LE(table.measuredError, 1e-15);
-    EXPECT_EQ(table.interfaces.size(), 2u);
+    EXPECT_EQ(table.discontinuities.size(), 2u);
     EXPECT_LE(differenceOf(lookUpSegment(table, 0.3, 0.2, 1.0), exact.segment(0.3, 0.2, 1.0, Integral::ScaleInvariant)),
               1e-15);
     EXPECT_LE(differenceOf(lookUpSegment(table, 0.3, 0.7, 1.0), exact.segment(0.3, 0.7, 1.0, Integral::ScaleInvariant)),
@@ -181,19 +181,19 @@ TEST(PreintegrationTable, OpaqueIsosurfaceIsInfinitelyDeep) {
 }
 
 // Only what the field can reach: an isosurface at the lowest scalar is never crossed, one at the highest may be.
-TEST(PreintegrationTable, InterfacesLieWithinTheRange) {
+TEST(PreintegrationTable, DiscontinuitiesLieWithinTheRange) {
     TransferFunction function = samples::jumps();
     function.isosurfaces = {{0.2, 0.5, {1, 0, 0}}, {0.4, 0.5, {1, 0, 0}}, {0.7, 0.5, {1, 0, 0}}, {0.9, 0.5, {1, 0, 0}}};
     const PreintegrationTable table = buildScaleInvariantTable(ExactIntegral(function), 0.2, 0.7, {});
-    ASSERT_EQ(table.interfaces.size(), 3u);
-    EXPECT_EQ(table.interfaces[0].value, 0.4);
-    EXPECT_EQ(table.interfaces[0].opacity, 0.5) << "jump and isosurface at one value are one interface";
-    EXPECT_EQ(table.interfaces[0].zoneBelow, 0);
-    EXPECT_EQ(table.interfaces[0].zoneAbove, 1);
-    EXPECT_EQ(table.interfaces[1].value, 0.6);
-    EXPECT_EQ(table.interfaces[1].opacity, 0.0);
-    EXPECT_EQ(table.interfaces[2].value, 0.7);
-    EXPECT_EQ(table.interfaces[2].zoneAbove, 2);
+    ASSERT_EQ(table.discontinuities.size(), 3u);
+    EXPECT_EQ(table.discontinuities[0].value, 0.4);
+    EXPECT_EQ(table.discontinuities[0].opacity, 0.5) << "jump and isosurface at one value are one discontinuity";
+    EXPECT_EQ(table.discontinuities[0].zoneBelow, 0);
+    EXPECT_EQ(table.discontinuities[0].zoneAbove, 1);
+    EXPECT_EQ(table.discontinuities[1].value, 0.6);
+    EXPECT_EQ(table.discontinuities[1].opacity, 0.0);
+    EXPECT_EQ(table.discontinuities[2].value, 0.7);
+    EXPECT_EQ(table.discontinuities[2].zoneAbove, 2);
     EXPECT_EQ(table.zones.size(), 3u);
 }
 

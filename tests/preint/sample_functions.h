@@ -43,16 +43,16 @@ inline TransferFunction jumps() {
     return function;
 }
 
-inline TransferFunction peaks() {
+inline TransferFunction isosurfaces() {
     TransferFunction function;
     function.color = {{0.0, {1.0, 1.0, 1.0}}};
     function.isosurfaces = {{0.3, 0.4, {1.0, 0.2, 0.1}}, {0.62, 0.7, {0.1, 0.4, 1.0}}};
     return function;
 }
 
-inline TransferFunction smoothWithPeaks() {
+inline TransferFunction smoothWithIsosurfaces() {
     TransferFunction function = smooth();
-    function.isosurfaces = peaks().isosurfaces;
+    function.isosurfaces = isosurfaces().isosurfaces;
     return function;
 }
 

@@ -27,10 +27,10 @@ struct Linear {
     double tableSize = 0, tableSlices = 0, tableLengthMax = 0, tableLengthScale = 0;
     glm::dvec4 seen{0};  ///< the coordinates at which the texture was asked
     glm::dvec4 tableTexel(double u, double v, double w) { return seen = glm::dvec4(u, v, w, 0); }
-#define TETRALUX_INTERFACES 1
+#define TETRALUX_DISCONTINUITIES 1
 #define TETRALUX_SCALE_INVARIANT 0
 #include <preint/table_lookup.glsl>
-#undef TETRALUX_INTERFACES
+#undef TETRALUX_DISCONTINUITIES
 #undef TETRALUX_SCALE_INVARIANT
 #undef TETRALUX_WARPS
 #undef TETRALUX_WARP_COUNT
@@ -43,7 +43,7 @@ struct Warped {
     std::vector<glm::dvec3> tableRamp;
     double tableSize = 0;
     static glm::dvec4 tableTexel(double u, double v, double w) { return glm::dvec4(u, v, w, 0); }
-#define TETRALUX_INTERFACES 0
+#define TETRALUX_DISCONTINUITIES 0
 #define TETRALUX_SCALE_INVARIANT 1
 #define TETRALUX_WARPS 1
 #define TETRALUX_WARP_COUNT static_cast<int>(tableWarp.size())

@@ -25,27 +25,28 @@ struct Interval {
 /// What an engine does with a record at one pixel.
 Interval evaluate(const CellRecord& r, const CameraFrame& frame, int x, int y) {
     const double dx = x - double(r.pixelX) - r.fractionX, dy = y - double(r.pixelY) - r.fractionY;
-    double in = frame.orthographic ? std::copysign(1.0, r.scale) : rhoAtEye, out = frame.orthographic ? -1e30 : -1.0;
+    double in = frame.orthographic ? std::copysign(1.0, r.scale) : inverseDepthAtEye,
+           out = frame.orthographic ? -1e30 : -1.0;
     for (int k = 0; k < 4; ++k) {
-        const double rho = glsl::planeRho(r.plane[k][0], r.plane[k][1], r.plane[k][2], dx, dy);
+        const double inverseDepth = glsl::planeInverseDepth(r.plane[k][0], r.plane[k][1], r.plane[k][2], dx, dy);
         if (static_cast<int>(r.frontMask) >> k & 1)
-            in = std::min(in, rho);
+            in = std::min(in, inverseDepth);
         else
-            out = std::max(out, rho);
+            out = std::max(out, inverseDepth);
     }
     if (!(in > out)) return {};
     if (frame.orthographic)
         return {true, glsl::segmentLengthOrthographic(r.scale, in, out),
-                glsl::scalarOrthographic(r.scalar, r.scalarPerX, r.scalarPerY, r.scalarPerRho, dx, dy, in, r.scalarLow,
-                                         r.scalarHigh),
-                glsl::scalarOrthographic(r.scalar, r.scalarPerX, r.scalarPerY, r.scalarPerRho, dx, dy, out, r.scalarLow,
-                                         r.scalarHigh)};
+                glsl::scalarOrthographic(r.scalar, r.scalarPerX, r.scalarPerY, r.scalarPerInverseDepth, dx, dy, in,
+                                         r.scalarLow, r.scalarHigh),
+                glsl::scalarOrthographic(r.scalar, r.scalarPerX, r.scalarPerY, r.scalarPerInverseDepth, dx, dy, out,
+                                         r.scalarLow, r.scalarHigh)};
     const glm::dvec3 offset = (x - frame.centre.x) * frame.perPixelRight + (y - frame.centre.y) * frame.perPixelDown;
     return {true, glsl::segmentLengthPerspective(r.scale, in, out, glm::length(frame.forward + offset)),
-            glsl::scalarPerspective(r.scalar, r.scalarPerX, r.scalarPerY, r.scalarPerRho, dx, dy, in, r.scalarLow,
-                                    r.scalarHigh),
-            glsl::scalarPerspective(r.scalar, r.scalarPerX, r.scalarPerY, r.scalarPerRho, dx, dy, out, r.scalarLow,
-                                    r.scalarHigh)};
+            glsl::scalarPerspective(r.scalar, r.scalarPerX, r.scalarPerY, r.scalarPerInverseDepth, dx, dy, in,
+                                    r.scalarLow, r.scalarHigh),
+            glsl::scalarPerspective(r.scalar, r.scalarPerX, r.scalarPerY, r.scalarPerInverseDepth, dx, dy, out,
+                                    r.scalarLow, r.scalarHigh)};
 }
 
 struct Worst {

@@ -39,8 +39,8 @@ void expectLikeReference(const Scene& scene, const Camera& camera, test::EngineT
 
 preint::TransferFunction functionOf(const std::string& name, double low, double high, double extent) {
     auto at = [&](double t) { return low + t * (high - low); };
-    if (name == "peaks") {
-        auto function = peaksFunction(low, high);
+    if (name == "isosurfaces") {
+        auto function = isosurfacesFunction(low, high);
         function.extinction.front().extinction /= extent;
         return function;
     }
@@ -88,7 +88,7 @@ TEST_P(CpuFunctions, AreLikeTheReference) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CpuFunctions,
-                         testing::Combine(testing::Values("peaks", "opaque", "constant", "jumps"),
+                         testing::Combine(testing::Values("isosurfaces", "opaque", "constant", "jumps"),
                                           testing::Values(Mode::Standard, Mode::ScaleInvariant)));
 
 double ramp(const glm::dvec3& p) {
@@ -171,7 +171,7 @@ TEST(CpuEngine, CellData) {
 TEST(CpuEngine, SilhouettesAndLight) {
     for (Mode mode : {Mode::Standard, Mode::ScaleInvariant, Mode::FirstHit})
         for (int what = 1; what < 4; ++what) {
-            Scene scene = fieldScene("bucky", what == 3 ? "peaks" : "smooth", mode);
+            Scene scene = fieldScene("bucky", what == 3 ? "isosurfaces" : "smooth", mode);
             scene.settings.shading.silhouette = (what & 1) != 0;
             if (what & 2)
                 scene.settings.shading.lights = {{glm::normalize(glm::dvec3(0.4, 0.8, 0.6))},
@@ -181,7 +181,7 @@ TEST(CpuEngine, SilhouettesAndLight) {
 }
 
 // Float; where a ray grazes an isosurface 1/|n·d| carries the rounding of n·d a thousandfold.
-constexpr test::EngineThreshold lookThreshold{1e-5, 1e-3};
+constexpr test::EngineThreshold variantThreshold{1e-5, 1e-3};
 
 // Colour maps as they come in files: cells cross dozens of nodes.
 TEST(CpuEngine, FunctionsOfManyNodes) {
@@ -204,9 +204,9 @@ TEST(CpuEngine, FunctionsOfManyNodes) {
             }
 }
 
-TEST(CpuEngine, QuickLooksAreTheGeneralOnes) {
+TEST(CpuEngine, QuickVariantsAreTheGeneralOnes) {
     for (int what = 0; what < 64; ++what) {
-        Scene scene = fieldScene("bucky", (what & 1) != 0 ? "peaks" : "smooth",
+        Scene scene = fieldScene("bucky", (what & 1) != 0 ? "isosurfaces" : "smooth",
                                  (what & 2) != 0 ? Mode::Standard : Mode::ScaleInvariant);
         auto& shading = scene.settings.shading;
         const bool lit = (what & 4) != 0;
@@ -218,12 +218,12 @@ TEST(CpuEngine, QuickLooksAreTheGeneralOnes) {
         }
         Camera camera = wholeView(*scene.mesh);
         if ((what & 32) != 0) camera.orthographicHeight = 1.6 * scene.mesh->bounds.diagonal();
-        expectLikeGeneral(scene, camera, lookThreshold, std::to_string(what));
+        expectLikeGeneral(scene, camera, variantThreshold, std::to_string(what));
     }
 }
 
 /// Point, head and coloured lights within and around the unit cube, attenuated and not, and a material of its own.
-void setLamps(int which, bool halfway, const glm::dvec3& centre, shading::ShadingSettings& shading) {
+void setLocalLights(int which, bool halfway, const glm::dvec3& centre, shading::ShadingSettings& shading) {
     using shading::Light;
     Light point, near, head, colored;
     point.kind = near.kind = Light::Kind::Point;
@@ -248,17 +248,17 @@ void setLamps(int which, bool halfway, const glm::dvec3& centre, shading::Shadin
     if (halfway && which == 0) shading.lights.push_back({glm::normalize(glm::dvec3(0.4, 0.8, 0.6))});
 }
 
-TEST(CpuEngine, LampsAreTheGeneralLight) {
+TEST(CpuEngine, LocalLightsAreTheGeneralLight) {
     for (int what = 0; what < 48; ++what) {
-        Scene scene = fieldScene("bucky", (what & 1) != 0 ? "peaks" : "smooth",
+        Scene scene = fieldScene("bucky", (what & 1) != 0 ? "isosurfaces" : "smooth",
                                  (what & 2) != 0 ? Mode::Standard : Mode::ScaleInvariant);
         auto& shading = scene.settings.shading;
-        setLamps(what / 16, (what & 4) != 0, scene.mesh->bounds.centre(), shading);
+        setLocalLights(what / 16, (what & 4) != 0, scene.mesh->bounds.centre(), shading);
         shading.silhouette = (what & 4) == 0;
         shading.exponent = (what & 4) != 0 ? 12.5 : 32.0;
         Camera camera = wholeView(*scene.mesh);
         if ((what & 8) != 0) camera.orthographicHeight = 1.6 * scene.mesh->bounds.diagonal();
-        expectLikeGeneral(scene, camera, lookThreshold, std::to_string(what));
+        expectLikeGeneral(scene, camera, variantThreshold, std::to_string(what));
     }
 }
 
@@ -388,7 +388,7 @@ TEST(CpuEngine, KeepsListsWhileTheCameraStays) {
 }
 
 TEST(CpuEngine, ThreadsDoNotChangeABit) {
-    for (const char* function : {"smooth", "peaks", "constant"}) {
+    for (const char* function : {"smooth", "isosurfaces", "constant"}) {
         const Scene scene = fieldScene("bucky", function, Mode::Standard, 14);
         const Camera camera = wholeView(*scene.mesh, 150, 110);
         std::vector<Image> images;
@@ -404,7 +404,7 @@ TEST(CpuEngine, ThreadsDoNotChangeABit) {
 TEST(CpuEngine, InstructionSetsAgree) {
     const Scene scene = fieldScene("bucky", "smooth", Mode::Standard, 12);
     const Scene lit = [&] {
-        Scene s = fieldScene("bucky", "peaks", Mode::ScaleInvariant, 12);
+        Scene s = fieldScene("bucky", "isosurfaces", Mode::ScaleInvariant, 12);
         s.settings.shading.silhouette = true;
         return s;
     }();
@@ -429,13 +429,13 @@ TEST(CpuEngine, CellsOutOfOrderAreNoticed) {
         if (orthographic) camera.orthographicHeight = 1.6;
         FrameReport right, wrong;
         const Image expected = cpuImage(scene, camera, right), image = cpuImage(scene, camera, wrong, unsorted);
-        EXPECT_TRUE(right.doubtfulPixels.empty());
+        EXPECT_TRUE(right.uncertainPixels.empty());
         std::size_t different = 0;
         for (std::uint32_t i = 0; i < image.pixels.size(); ++i) {
             const glm::vec4 d = glm::abs(image.pixels[i] - expected.pixels[i]);
             if (std::max({d.x, d.y, d.z}) < 1e-4f) continue;
             ++different;
-            ASSERT_TRUE(std::binary_search(wrong.doubtfulPixels.begin(), wrong.doubtfulPixels.end(), i)) << i;
+            ASSERT_TRUE(std::binary_search(wrong.uncertainPixels.begin(), wrong.uncertainPixels.end(), i)) << i;
         }
         EXPECT_GT(different, 100u);
     }

@@ -98,7 +98,7 @@ TEST(CpuTransfer, PiecesFollowTheFunction) {
         for (int c = 0; c < 3; ++c)
             ASSERT_NEAR(piece.color[c] + piece.colorSlope[c] * x, function.colorAt(s)[c], 1e-5) << s;
     }
-    ASSERT_EQ(transfer.peaks().size(), 1u);
+    ASSERT_EQ(transfer.isosurfaces().size(), 1u);
     EXPECT_FALSE(transfer.constantColor());
 }
 

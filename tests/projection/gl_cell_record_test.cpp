@@ -37,7 +37,7 @@ void main() {
     fields[17] = cell.scalar;
     fields[18] = cell.scalarPerX;
     fields[19] = cell.scalarPerY;
-    fields[20] = cell.scalarPerRho;
+    fields[20] = cell.scalarPerInverseDepth;
     fields[21] = cell.scalarLow;
     fields[22] = cell.scalarHigh;
     fields[23] = cell.scale;
@@ -84,7 +84,7 @@ TEST(GlCellRecord, GlslReadsTheFieldsThatCppWrites) {
     record.scalar = 301;
     record.scalarPerX = 302;
     record.scalarPerY = 303;
-    record.scalarPerRho = 304;
+    record.scalarPerInverseDepth = 304;
     record.scalarLow = 305;
     record.scalarHigh = 306;
     record.scale = 401;

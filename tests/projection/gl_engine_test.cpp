@@ -85,9 +85,9 @@ INSTANTIATE_TEST_SUITE_P(All, GlFieldModes,
 
 class GlIntegrals : public testing::TestWithParam<Mode> {};
 
-TEST_P(GlIntegrals, PeaksAreExact) {
+TEST_P(GlIntegrals, IsosurfacesAreExact) {
     Scene scene = fieldScene("bucky:12", GetParam());
-    scene.transferFunction = peaksFunction(scene.mesh->scalarMin, scene.mesh->scalarMax);
+    scene.transferFunction = isosurfacesFunction(scene.mesh->scalarMin, scene.mesh->scalarMax);
     // no table error at all; an isosurface's rim may fall into a neighbouring pixel
     expectLikeReference(scene, fieldCamera(scene), {2e-4, 2e-2});
 }

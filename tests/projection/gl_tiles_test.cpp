@@ -58,7 +58,7 @@ TEST_P(TileIntegrals, LikeReference) {
         EngineThreshold threshold;
     };
     const Case cases[] = {{"smooth", smoothFunction(0.1, 0.9), {2e-5, 4e-4}},
-                          {"peaks", peaksFunction(0.1, 0.9), {2e-4, 2e-2}},
+                          {"isosurfaces", isosurfacesFunction(0.1, 0.9), {2e-4, 2e-2}},
                           {"opaque", smoothFunction(0.1, 0.9, 400.0), {2e-5, 4e-4}},
                           {"constant", constantFunction(3.0), {5e-6, 1e-4}}};
     const std::vector<View> outsideAndInside{views()[0], views()[1]};

@@ -207,12 +207,12 @@ TEST(Reference, SomePixelsAreTheSameAsAllPixels) {
     EXPECT_EQ(counts.overlaps, 0u);
 }
 
-TEST(Reference, EveryRayCrossesEveryPeakOnce) {
-    // s = distance along the view: a peak of opacity 0.4 in the middle covers the box whatever the mesh
-    preint::TransferFunction peak = constantFunction(0);
-    peak.isosurfaces = {{0.5, 0.4, {1, 0.5, 0}}};
+TEST(Reference, EveryRayCrossesEveryIsosurfaceOnce) {
+    // s = distance along the view: an isosurface of opacity 0.4 in the middle covers the box whatever the mesh
+    preint::TransferFunction isosurface = constantFunction(0);
+    isosurface.isosurfaces = {{0.5, 0.4, {1, 0.5, 0}}};
     const Scene scene =
-        sceneOf(boxMesh(5, [](const glm::dvec3& p) { return p.z; }), peak);  // 0.5 is a plane of vertices
+        sceneOf(boxMesh(5, [](const glm::dvec3& p) { return p.z; }), isosurface);  // 0.5 is a plane of vertices
     const Camera camera = cameraAt({0.5, 0.5, 3}, glm::dvec3(0.5), 33, 33);
     const Image image = render(scene, camera);
     for (int y = 10; y < 23; ++y)

@@ -96,12 +96,12 @@ TEST_P(Modes, EnginesAgreeWithinClipPlanes) {
 TEST_P(Modes, EnginesAgreeOnIsosurfaces) {
     const Mode mode = GetParam();
     Scene scene = fieldScene("marschner-lobb:12", mode);
-    scene.transferFunction = peaksFunction(scene.mesh->scalarMin, scene.mesh->scalarMax);
+    scene.transferFunction = isosurfacesFunction(scene.mesh->scalarMin, scene.mesh->scalarMax);
     if (mode == Mode::FirstHit || mode == Mode::Depth) scene.transferFunction.extinction = {{0.0, 0.0}};
     EngineThreshold threshold = thresholdOf(mode);
     threshold.rmse = std::max(threshold.rmse, 2e-3);  // rims of isosurfaces
     threshold.max = std::max(threshold.max, 0.7);
-    expectEnginesAgree(scene, cameraOf(scene, false), threshold, modes.at(mode) + " peaks");
+    expectEnginesAgree(scene, cameraOf(scene, false), threshold, modes.at(mode) + " surfaces");
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Modes,
@@ -142,16 +142,16 @@ TEST_P(Integrals, EnginesAgreeOnClassifications) {
 }
 
 TEST_P(Integrals, EnginesAgreeOnScaledExtinction) {
-    for (const bool peaks : {false, true}) {
+    for (const bool surfaces : {false, true}) {
         Scene scene = fieldScene("bucky:12", GetParam());
-        if (peaks) scene.transferFunction = peaksFunction(scene.mesh->scalarMin, scene.mesh->scalarMax);
+        if (surfaces) scene.transferFunction = isosurfacesFunction(scene.mesh->scalarMin, scene.mesh->scalarMax);
         const Camera camera = cameraOf(scene, false);
         PixelMaps maps;
         for (std::size_t i = 0; i < 80 * 64; ++i)
             maps.extinctionScale.push_back(static_cast<float>(i % 80) / 20.0f);  // 0 … 4 from left to right
         scene.settings.largestExtinctionScale = 4.0;
-        expectEnginesAgree(scene, {camera, &maps}, peaks ? EngineThreshold{2e-3, 0.7} : EngineThreshold{1e-4, 2e-3},
-                           modes.at(GetParam()) + (peaks ? " scaled peaks" : " scaled"));
+        expectEnginesAgree(scene, {camera, &maps}, surfaces ? EngineThreshold{2e-3, 0.7} : EngineThreshold{1e-4, 2e-3},
+                           modes.at(GetParam()) + (surfaces ? " scaled surfaces" : " scaled"));
         scene.settings.shading.silhouette = true;
         expectEnginesAgree(scene, {camera, &maps}, {2e-3, 0.7}, modes.at(GetParam()) + " scaled silhouettes");
     }

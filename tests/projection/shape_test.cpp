@@ -139,10 +139,10 @@ TEST(EquidistantIsosurfaces, HaveTheDepthOfTheirSteps) {
 // Rays that run exactly within the isosurfaces of a plane field: k is infinite.
 TEST(Silhouettes, GrazingRaysAreFinite) {
     for (const Mode mode : {Mode::Standard, Mode::ScaleInvariant})
-        for (const bool peaks : {false, true})
+        for (const bool surfaces : {false, true})
             for (const bool approximate : {false, true}) {
                 Scene scene = sceneOf(boxMesh(5, [](const glm::dvec3& p) { return p.z; }), constantFunction(3.0), mode);
-                if (peaks) scene.transferFunction.isosurfaces = {{0.5, 0.6, {1, 0, 0}}, {0.25, 1.0, {0, 1, 0}}};
+                if (surfaces) scene.transferFunction.isosurfaces = {{0.5, 0.6, {1, 0, 0}}, {0.25, 1.0, {0, 1, 0}}};
                 scene.settings.shading.silhouette = true;
                 scene.settings.shading.approximateSilhouette = approximate;
                 scene.settings.shading.lights.push_back({glm::dvec3(0, 0.6, 0.8)});

@@ -2,7 +2,7 @@
 //
 // Slices that let part of the volume behind them through, colours that tell the distance, shadows of opaque surfaces:
 // closed forms in every engine, and every engine against the reference.
-#include <projection/frame/veiled_volume.h>
+#include <projection/frame/translucent_slices.h>
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +81,7 @@ glm::dvec4 expectedPixel(const Scene& scene, const std::vector<Slice>& slices, c
     return pixel;
 }
 
-TEST(VeiledVolume, SlicesOfSomeOpacityInClosedForm) {
+TEST(TranslucentSlices, SlicesOfSomeOpacityInClosedForm) {
     const std::vector<Slice> slices{{{0.5, 0.5, 0.45}, {0.2, -0.1, 1}, 0.5},
                                     {{0.5, 0.4, 0.5}, {0, 1, 0.2}, 0.25},
                                     {{0.3, 0.5, 0.5}, {1, 0, 0}, 1.0}};
@@ -125,7 +125,7 @@ Scene litBall(Mode mode) {
 
 const Camera ballCamera = cameraAt({1.9, 1.4, 2.3}, glm::dvec3(0.5), 80, 64);
 
-TEST(VeiledVolume, IsTheSameInEveryEngine) {
+TEST(TranslucentSlices, IsTheSameInEveryEngine) {
     const std::vector<Slice> slices{{{0.5, 0.5, 0.5}, {0.3, -0.2, 1}, 0.4}, {{0.5, 0.5, 0.3}, {0, 1, 0.1}, 0.7}};
     for (const Mode mode : {Mode::Standard, Mode::ScaleInvariant, Mode::FirstHit, Mode::Absorption}) {
         Scene scene = litBall(mode);
@@ -135,35 +135,35 @@ TEST(VeiledVolume, IsTheSameInEveryEngine) {
         scene.mapSources.push_back(
             std::make_shared<const ClipRegion>(std::vector<HalfSpace>{{{0.5, 0.5, 0.7}, {0.1, 0.2, -1}}}, 0.01));
         expectEnginesAgree(withSlices(scene, slices), ballCamera, edged,
-                           "veils " + std::to_string(static_cast<int>(mode)), mode == Mode::Standard);
+                           "translucent " + std::to_string(static_cast<int>(mode)), mode == Mode::Standard);
     }
     Scene adaptive = litBall(Mode::Standard);
     adaptive.settings.adaptive = AdaptiveSettings{};
     expectEnginesAgree(withSlices(adaptive, slices), ballCamera, edged, "adaptive");
 }
 
-TEST(VeiledVolume, ClearSlicesDoNotShow) {
+TEST(TranslucentSlices, ClearSlicesDoNotShow) {
     for (const EngineOptions& options : everyEngine) {
         Scene plain = litBall(Mode::ScaleInvariant);
         plain.settings.shading = {};
-        const Scene veiled = withSlices(plain, {{{0.5, 0.5, 0.5}, {0.3, -0.2, 1}, 0.0}});
+        const Scene sliced = withSlices(plain, {{{0.5, 0.5, 0.5}, {0.3, -0.2, 1}, 0.0}});
         // parts of a segment in its place: exact but for tables
-        EXPECT_LE(compareImages(pictureOf(plain, ballCamera, options), pictureOf(veiled, ballCamera, options)).max,
+        EXPECT_LE(compareImages(pictureOf(plain, ballCamera, options), pictureOf(sliced, ballCamera, options)).max,
                   1e-4)
             << options.engine;
     }
 }
 
-TEST(VeiledVolume, ModesThatComposeNoPartsAreRefused) {
+TEST(TranslucentSlices, ModesThatComposeNoPartsAreRefused) {
     EXPECT_THROW(withSlices(litBall(Mode::Mip), {{{0.5, 0.5, 0.5}, {0, 0, 1}, 0.5}}), std::runtime_error);
     EXPECT_THROW(withSlices(litBall(Mode::Standard), {{{0.5, 0.5, 0.5}, {0, 0, 1}, 1.5}}), std::runtime_error);
     EXPECT_NO_THROW(withSlices(litBall(Mode::Mip), {{{0.5, 0.5, 0.5}, {0, 0, 1}, 1.0}}));
 }
 
-TEST(VeiledVolume, VeilsInNoOrderOrOutsideAreRefused) {
-    const auto check = [](std::vector<Veil> veils) {
+TEST(TranslucentSlices, FragmentsInNoOrderOrOutsideAreRefused) {
+    const auto check = [](std::vector<TranslucentFragment> translucent) {
         PixelMaps maps;
-        maps.veils = std::move(veils);
+        maps.translucent = std::move(translucent);
         checkPixelMaps({cameraAt({2, 2, 2}, glm::dvec3(0.5), 4, 3), &maps});
     };
     EXPECT_NO_THROW(check({{3, 1.0, {}}, {3, 2.0, {}}, {11, 0.5, {}}}));
@@ -239,7 +239,8 @@ TEST(SurfaceShadows, FallOnTheVolume) {
         if (std::abs(beside) < 1e-5 || std::max(p.x, p.y) > 1 - 1e-6) continue;  // rims
         const bool hidden = beside < 0 && p.z < 0.8 - 1e-5;
         dark += hidden ? 1 : 0;
-        EXPECT_NEAR(light->of(i)[light->shadowAt], hidden ? 0.0 : std::exp(-1.3 * (1 - p.z)), 2e-6);  // rays begin some 1e-6 off the vertex
+        EXPECT_NEAR(light->of(i)[light->shadowAt], hidden ? 0.0 : std::exp(-1.3 * (1 - p.z)),
+                    2e-6);  // rays begin some 1e-6 off the vertex
     }
     EXPECT_GT(dark, 50);
 }

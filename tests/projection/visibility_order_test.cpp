@@ -14,8 +14,8 @@
 #include <projection/cells/edge_on_planes.h>
 #include <projection/frame/engine_registry.h>
 #include <projection/order/boundary_reentry.h>
+#include <projection/order/incremental_sort.h>
 #include <projection/order/key_sort.h>
-#include <projection/order/order_upkeep.h>
 #include <projection/order/power_order.h>
 #include <projection/order/visibility_order.h>
 #include <projection/reference/reference_ray_caster.h>
@@ -35,16 +35,17 @@ struct OrderCheck {
     int pairs = 0, wrong = 0;
 };
 
-/// Neighbouring segments of every ray, in pixels that are not doubtful.
+/// Neighbouring segments of every ray, in pixels that are not uncertain.
 OrderCheck checkAgainstRays(const mesh::ScalarMesh& m, const Camera& camera, const std::vector<mesh::CellIndex>& order,
-                            const std::vector<std::uint32_t>& doubtful = {}) {
+                            const std::vector<std::uint32_t>& uncertain = {}) {
     std::vector<std::uint32_t> rank(m.cells.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) rank[order[i]] = i;
     const ReferenceRayCaster caster(sceneOf(m, constantFunction(1)));
     OrderCheck check;
     for (int y = 0; y < camera.height; y += 2)
         for (int x = 0; x < camera.width; x += 2) {
-            if (std::binary_search(doubtful.begin(), doubtful.end(), static_cast<std::uint32_t>(y * camera.width + x)))
+            if (std::binary_search(uncertain.begin(), uncertain.end(),
+                                   static_cast<std::uint32_t>(y * camera.width + x)))
                 continue;
             const auto segments = caster.segmentsAt(camera, x, y);
             for (std::size_t i = 1; i < segments.size(); ++i) {
@@ -90,7 +91,7 @@ TEST(VisibilityOrder, OrdersAConvexMeshFromEveryEye) {
         const VisibilityOrder order = sorter.sort(cameraFrame(camera));
         EXPECT_EQ(order.method, "mpvo");
         EXPECT_EQ(order.cyclicCells, 0u);
-        EXPECT_TRUE(order.doubtfulPixels.empty());
+        EXPECT_TRUE(order.uncertainPixels.empty());
         ASSERT_EQ(order.frontToBack.size(), m.cells.size());
         const OrderCheck check = checkAgainstRays(m, camera, order.frontToBack);
         EXPECT_GT(check.pairs, 500);
@@ -108,10 +109,10 @@ TEST(VisibilityOrder, OrdersAcrossGapsOfANonconvexMesh) {
         const VisibilityOrder order = sorter.sort(cameraFrame(camera));
         EXPECT_EQ(order.method, "mpvo+reentry");
         ASSERT_EQ(order.frontToBack.size(), m.cells.size());
-        const OrderCheck check = checkAgainstRays(m, camera, order.frontToBack, order.doubtfulPixels);
+        const OrderCheck check = checkAgainstRays(m, camera, order.frontToBack, order.uncertainPixels);
         EXPECT_GT(check.pairs, 300);
         EXPECT_EQ(check.wrong, 0);
-        EXPECT_LT(order.doubtfulPixels.size(), 20u);
+        EXPECT_LT(order.uncertainPixels.size(), 20u);
     }
 }
 
@@ -126,7 +127,7 @@ std::vector<Camera> movingCameras() {
     return cameras;
 }
 
-TEST(OrderUpkeep, KeptAndRepairedOrdersAreRight) {
+TEST(IncrementalSort, KeptAndRepairedOrdersAreRight) {
     const mesh::ScalarMesh whole = jitteredBoxMesh(8, 0.2, 5, plain);
     const mesh::ScalarMesh hollow =
         carved(whole, [](const glm::dvec3& p) { return glm::distance(p, glm::dvec3(0.5)) > 0.3; });
@@ -135,21 +136,21 @@ TEST(OrderUpkeep, KeptAndRepairedOrdersAreRight) {
           std::tuple(hollow, OrderMethod::Auto, "mpvo+reentry")}) {
         VisibilitySorter sorter(m, method);
         EXPECT_EQ(sorter.method(), wanted);
-        std::map<std::string, int> upkeep;
+        std::map<std::string, int> incrementalSort;
         for (const Camera& camera : movingCameras()) {
             const VisibilityOrder& order = sorter.sort(cameraFrame(camera));
-            ++upkeep[order.upkeep];
-            const OrderCheck check = checkAgainstRays(m, camera, order.frontToBack, order.doubtfulPixels);
+            ++incrementalSort[order.incrementalSort];
+            const OrderCheck check = checkAgainstRays(m, camera, order.frontToBack, order.uncertainPixels);
             EXPECT_GT(check.pairs, 500);
-            EXPECT_EQ(check.wrong, 0) << wanted << ", " << order.upkeep;
+            EXPECT_EQ(check.wrong, 0) << wanted << ", " << order.incrementalSort;
             for (std::uint32_t i = 0; i < order.places.size(); ++i) ASSERT_EQ(order.places[order.frontToBack[i]], i);
         }
-        std::printf("%s: %d sorted, %d kept, %d repaired\n", wanted, upkeep["sorted"], upkeep["kept"],
-                    upkeep["repaired"]);
-        EXPECT_GE(upkeep["kept"], 1) << "the eye stayed once";
-        EXPECT_GE(upkeep["sorted"], 1);
+        std::printf("%s: %d sorted, %d kept, %d repaired\n", wanted, incrementalSort["sorted"], incrementalSort["kept"],
+                    incrementalSort["repaired"]);
+        EXPECT_GE(incrementalSort["kept"], 1) << "the eye stayed once";
+        EXPECT_GE(incrementalSort["sorted"], 1);
         if (method == OrderMethod::Graph) {
-            EXPECT_GE(upkeep["repaired"], 5);
+            EXPECT_GE(incrementalSort["repaired"], 5);
         }
     }
 }
@@ -187,7 +188,7 @@ TEST(RoundedPlanes, SayOnlyWhatTheExactPredicateSays) {
     EXPECT_GT(told, all / 2) << "a filter that says nothing is of no use";
 }
 
-TEST(OrderUpkeep, RepairMovesFewCellsOrSaysNo) {
+TEST(IncrementalSort, RepairMovesFewCellsOrSaysNo) {
     const mesh::ScalarMesh m = jitteredBoxMesh(6, 0.2, 5, plain);
     const mesh::Adjacency adjacency = mesh::buildAdjacency(m.cells, m.positions.size());
     const RoundedPlanes planes(m);
@@ -241,10 +242,10 @@ TEST(VisibilityOrder, NamesThePixelsOfACycle) {
     const Camera camera = cameraAt({0, 0, 6}, glm::dvec3(0), 80, 80);
     const VisibilityOrder order = VisibilitySorter(m).sort(cameraFrame(camera));
     EXPECT_GE(order.cyclicCells, 1u);
-    EXPECT_FALSE(order.doubtfulPixels.empty());
+    EXPECT_FALSE(order.uncertainPixels.empty());
     const OrderCheck all = checkAgainstRays(m, camera, order.frontToBack);
     EXPECT_GT(all.wrong, 0) << "the scene is not cyclic: nothing was tested";
-    EXPECT_EQ(checkAgainstRays(m, camera, order.frontToBack, order.doubtfulPixels).wrong, 0);
+    EXPECT_EQ(checkAgainstRays(m, camera, order.frontToBack, order.uncertainPixels).wrong, 0);
 }
 
 /// The mesh and the same moved by `step`: one reaches into the other.
@@ -276,8 +277,8 @@ TEST(VisibilityOrder, CellsThatOverlapStandAsTheyAreMetOrAreNamed) {
         RayCastCounts counts;
         ReferenceRayCaster(sceneOf(m, constantFunction(1))).render(camera, counts);
         EXPECT_GT(counts.overlaps, 20u);
-        EXPECT_EQ(order.doubtfulPixels.empty(), ordered);
-        const OrderCheck check = checkAgainstRays(m, camera, order.frontToBack, order.doubtfulPixels);
+        EXPECT_EQ(order.uncertainPixels.empty(), ordered);
+        const OrderCheck check = checkAgainstRays(m, camera, order.frontToBack, order.uncertainPixels);
         EXPECT_GT(check.pairs, 20);
         EXPECT_EQ(check.wrong, 0);
     }
@@ -401,17 +402,17 @@ TEST(OrderedKey, AscendsFromNearToFar) {
     EXPECT_EQ(orderedKey(5.0, 5.0, 5.0), 0u);
 }
 
-/// An engine that paints red, doubts some pixels and makes one no number.
-class DoubtingEngine final : public Engine {
+/// An engine that paints red, isUncertain some pixels and makes one no number.
+class UncertainEngine final : public Engine {
 public:
     Image render(const View& view, FrameReport& report) override {
         Image image(view.camera.width, view.camera.height);
         for (auto& pixel : image.pixels) pixel = {1, 0, 0, 1};
-        report.doubtfulPixels = {3, 900, 901};
+        report.uncertainPixels = {3, 900, 901};
         image.pixels[700].x = std::nanf("");
         return image;
     }
-    std::string name() const override { return "doubting"; }
+    std::string name() const override { return "uncertain"; }
     std::string renderer() const override { return "test"; }
 };
 
@@ -430,13 +431,13 @@ TEST(OrderMethod, WrongPixelsOfACentroidSortAreCountedNotRepaired) {
     EXPECT_EQ(plainSort.pixelsRepaired, 0u);
 }
 
-TEST(ExactRepair, ReplacesDoubtfulPixelsOnly) {
+TEST(ExactRepair, ReplacesUncertainPixelsOnly) {
     const Scene scene = sceneOf(boxMesh(4, plain), smoothFunction(0, 1));
     const Camera camera = cameraAt({1.9, 1.4, 2.3});
     RayCastCounts counts;
     const Image exact = ReferenceRayCaster(scene).render(camera, counts);
     FrameReport report;
-    const Image image = withExactRepair(std::make_unique<DoubtingEngine>(), scene)->render(camera, report);
+    const Image image = withExactRepair(std::make_unique<UncertainEngine>(), scene)->render(camera, report);
     EXPECT_EQ(report.pixelsRepaired, 4u);
     EXPECT_EQ(report.repairedBecause, (std::map<std::string, std::uint64_t>{{"not a number", 1}, {"order", 3}}));
     EXPECT_EQ(image.pixels[3], exact.pixels[3]);

@@ -106,7 +106,7 @@ TEST_P(DelaunayMeshes, AreDrawnAsTheReferenceDrawsThem) {
         for (const mesh::ScalarMesh& m : {whole, holed}) {
             const Mode mode = seed % 2 ? Mode::Standard : Mode::ScaleInvariant;
             const Scene smooth = sceneOf(m, smoothFunction(0, 1, 8), mode);
-            const Scene peaks = sceneOf(m, peaksFunction(0, 1), mode);
+            const Scene isosurfaces = sceneOf(m, isosurfacesFunction(0, 1), mode);
             const glm::dvec3 from = glm::normalize(onSphere(random) + glm::dvec3(0, 0, 1.5));
             Camera camera = cameraAt(hole + (0.2 + 1.6 * unit(random)) * from, hole, 48, 48);
             if (seed % 3 == 0) camera.orthographicHeight = 1.3;
@@ -116,7 +116,8 @@ TEST_P(DelaunayMeshes, AreDrawnAsTheReferenceDrawsThem) {
             // tables and floats 1e-4; pixels at an outline may differ by what one thin cell holds
             holdEnginesTo(expected, smooth, camera, {1e-4, 5e-3}, what);
             // one pixel of 48² in which an isosurface's outline falls the other way is 8e-3; none may
-            holdEnginesTo(referenceImage(peaks, camera), peaks, camera, {2e-3, 5e-2}, what + ", isosurfaces");
+            holdEnginesTo(referenceImage(isosurfaces, camera), isosurfaces, camera, {2e-3, 5e-2},
+                          what + ", isosurfaces");
         }
     }
 }

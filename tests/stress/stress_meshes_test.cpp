@@ -162,18 +162,18 @@ TEST(StressMeshes, CyclesAndHeapsOfNeedles) {
 }
 
 TEST(StressMeshes, OutlinesOfIsosurfacesStandInTheirPixels) {
-    // peaks make every outline a jump: a sample 6e-5 pixel beside the centre put one into another pixel in a picture of
-    // twenty. The eye turns by little so that outlines sweep over pixel centres.
+    // isosurfaces make every outline a jump: a sample 6e-5 pixel beside the centre put one into another pixel in a
+    // picture of twenty. The eye turns by little so that outlines sweep over pixel centres.
     const mesh::ScalarMesh m = carved(jitteredBoxMesh(8, 0.3, 6, plain),
                                       [](const glm::dvec3& p) { return glm::distance(p, glm::dvec3(0.5)) > 0.3; });
     for (Mode mode : {Mode::Standard, Mode::ScaleInvariant}) {
-        const Scene scene = sceneOf(m, peaksFunction(0, 1), mode);
+        const Scene scene = sceneOf(m, isosurfacesFunction(0, 1), mode);
         for (double turn : {0.0, 0.01, 0.02, 0.03}) {
             Camera camera = cameraAt(glm::dvec3(0.5) + 2.0 * glm::dvec3(std::cos(turn), 0.3, std::sin(turn)),
                                      glm::dvec3(0.5), 96, 96);
             for (double height : {0.0, 1.6}) {
                 camera.orthographicHeight = height;
-                // no pixel at all may differ by what a peak holds (0.4)
+                // no pixel at all may differ by what an isosurface holds (0.4)
                 holdEnginesTo(referenceImage(scene, camera), scene, camera, {2e-5, 1e-2},
                               fmt::format("isosurfaces turned by {} {}", turn, height > 0 ? "orthographic" : ""));
             }
@@ -192,9 +192,9 @@ TEST(StressMeshes, FlatAndNeedleCells) {
         const Camera camera = cameraAt({1.1, 0.9, 2.3});
         const Image expected = referenceImage(scene, camera);
         EXPECT_GT(coveredShare(expected), 0.1);
-        const Scene peaks =
-            sceneOf(m, peaksFunction(0, 1));  // flat cells and neighbours differ about the scalar between
-        holdEnginesTo(referenceImage(peaks, camera), peaks, camera, {2e-3, 0.1},
+        const Scene isosurfaces =
+            sceneOf(m, isosurfacesFunction(0, 1));  // flat cells and neighbours differ about the scalar between
+        holdEnginesTo(referenceImage(isosurfaces, camera), isosurfaces, camera, {2e-3, 0.1},
                       fmt::format("isosurfaces, squeezed by {:g}", squeeze));
         if (squeeze == 1e-6) {  // the colour of one cell's own segment, which float planes of that cell do not know
             const Scene first = sceneOf(m, f, Mode::FirstHit);
@@ -253,7 +253,7 @@ TEST(StressMeshes, WhatIsNotFiniteIsLeftOutAndNothingElse) {
         sound = finished(std::move(sound));
         ASSERT_LT(sound.cells.size(), base.cells.size());
         const Camera camera = cameraAt({1.9, 1.4, 2.3});
-        for (const auto& f : {smoothFunction(0, 1, 8), peaksFunction(0, 1)})
+        for (const auto& f : {smoothFunction(0, 1, 8), isosurfacesFunction(0, 1)})
             holdEnginesTo(referenceImage(sceneOf(sound, f), camera), sceneOf(drawn, f), camera, ordinary,
                           positions ? "NaN and infinite positions" : "NaN and infinite scalars");
     }

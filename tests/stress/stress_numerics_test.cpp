@@ -106,7 +106,7 @@ TEST(StressOpacity, OpticalDepthsOfTwentyFourDecades) {
 
 TEST(StressOpacity, RampsFromNothingToTwelveDecades) {
     // at the foot of the ramp a scalar's rounding is much of what there is, and tables have a texel for all of it;
-    // peaks stay free: single pixels on an outline. A wave shows the foot in front of everything else
+    // isosurfaces stay free: single pixels on an outline. A wave shows the foot in front of everything else
     const mesh::ScalarMesh m = jitteredBoxMesh(9, 0.2, 4, [](const glm::dvec3& p) { return std::pow(wave(p), 8.0); });
     struct Case {
         Mode mode;
@@ -219,15 +219,15 @@ TEST(StressViews, AnyAngleAndPlaceOfTheEye) {
     }
 }
 
-TEST(StressOpacity, OpaquePeaksAndStrongExtinction) {
+TEST(StressOpacity, OpaqueIsosurfacesAndStrongExtinction) {
     const mesh::ScalarMesh m = jitteredBoxMesh(6, 0.2, 4, [](const glm::dvec3& p) { return p.x + 0.3 * p.y; });
-    preint::TransferFunction peaks = peaksFunction(0, 1.3);
-    peaks.isosurfaces[0].opacity = 1;
+    preint::TransferFunction isosurfaces = isosurfacesFunction(0, 1.3);
+    isosurfaces.isosurfaces[0].opacity = 1;
     preint::TransferFunction wall = smoothFunction(0, 1.3, 1e6);
     for (Mode mode : {Mode::Standard, Mode::ScaleInvariant})
-        for (const auto& [name, f] : {std::pair{"opaque peak", peaks}, {"extinction up to 1e6", wall}}) {
+        for (const auto& [name, f] : {std::pair{"opaque isosurface", isosurfaces}, {"extinction up to 1e6", wall}}) {
             const Scene scene = sceneOf(m, f, mode);
-            // edges of the peak and of the wall may fall into the neighbouring pixel
+            // edges of the isosurface and of the wall may fall into the neighbouring pixel
             holdEnginesTo(referenceImage(scene, cameraAt(eye)), scene, cameraAt(eye), {2e-3, 0.5}, name);
         }
 }
@@ -241,7 +241,7 @@ TEST(StressShading, GrazingRaysKeepSilhouettesFinite) {
         scene.settings.shading.lights = {{{0, 0, 1}}};
         const Camera camera =
             cameraAt({0.5, 0.5, 3}, glm::dvec3(0.5), 33, 33);  // the middle row runs along the isosurface
-        // k has a pole at grazing rays: 1e-4 pixel beside it the opacity of a peak is another one
+        // k has a pole at grazing rays: 1e-4 pixel beside it the opacity of an isosurface is another one
         holdEnginesTo(referenceImage(scene, camera), scene, camera, {3e-2, 1.0}, "grazing rays");
     }
 }

@@ -75,7 +75,7 @@ TEST_P(HardOrders, LeaveNoPixelWrong) {
     for (const auto& [functionName, function, mode, threshold] :
          {std::tuple("smooth", smoothFunction(0, 1, 12 / m.bounds.diagonal()), Mode::Standard, Threshold{1e-4, 5e-3}),
           // an outline pixel that falls the other way shows an isosurface or does not
-          std::tuple("peaks", peaksFunction(0, 1), Mode::ScaleInvariant, Threshold{2e-3, 1.0})}) {
+          std::tuple("isosurfaces", isosurfacesFunction(0, 1), Mode::ScaleInvariant, Threshold{2e-3, 1.0})}) {
         const Scene scene = sceneOf(m, function, mode);
         std::vector<Image> expected;
         for (const NamedView& view : views) {

@@ -18,17 +18,17 @@ namespace {
 
 using namespace tetralux::test;
 
-// nothing but whole peaks, in float; one pixel that falls the other way is 0.24 and more
+// nothing but whole isosurfaces, in float; one pixel that falls the other way is 0.24 and more
 constexpr Threshold exact{1e-6, 1e-5};
 
-constexpr double peakOpacity = 0.4;
+constexpr double isosurfaceOpacity = 0.4;
 constexpr float once = 0.4f, twice = 0.64f, never = 0.0f;  // alpha of a ray that crosses the isosurface
 
-preint::TransferFunction onePeak(double value) {
+preint::TransferFunction oneIsosurface(double value) {
     preint::TransferFunction f;
     f.color = {{0.0, {1, 1, 1}}};
     f.extinction = {{0.0, 0.0}};
-    f.isosurfaces = {{value, peakOpacity, {1, 1, 1}}};
+    f.isosurfaces = {{value, isosurfaceOpacity, {1, 1, 1}}};
     return f;
 }
 
@@ -42,7 +42,7 @@ Camera latticeCamera(int axis, double side) {
     return camera;
 }
 
-TEST(StressTies, OutlinesThroughPixelCentres) {
+TEST(StressPerturbation, OutlinesThroughPixelCentres) {
     // s = ±x + |z − ½|: rays along z turn at the middle of the box, where s = ±x. Where that is below v and the
     // walls are not, v is crossed twice, elsewhere not at all; v is the value of a row of pixel centres, in the middle
     // for both slopes and at the walls for one.
@@ -51,8 +51,9 @@ TEST(StressTies, OutlinesThroughPixelCentres) {
             for (double side : {1.0, -1.0}) {
                 const int across = (along + 1) % 3;
                 const auto ramp = [&](const glm::dvec3& p) { return slope * (p[across] - 0.25); };
-                Scene scene = sceneOf(
-                    boxMesh(3, [&](const glm::dvec3& p) { return ramp(p) + std::abs(p[along] - 0.5); }), onePeak(0.0));
+                Scene scene =
+                    sceneOf(boxMesh(3, [&](const glm::dvec3& p) { return ramp(p) + std::abs(p[along] - 0.5); }),
+                            oneIsosurface(0.0));
                 const Camera camera = latticeCamera(along, side);
                 const CameraFrame frame = cameraFrame(camera);
                 Image expected(camera.width, camera.height);
@@ -70,11 +71,12 @@ TEST(StressTies, OutlinesThroughPixelCentres) {
             }
 }
 
-TEST(StressTies, IsosurfacesOfTheBoundarysOwnValue) {
+TEST(StressPerturbation, IsosurfacesOfTheBoundarysOwnValue) {
     // s falls from 1 on one wall to 0 on the other: that of 1 is crossed at the wall itself, that of 0 nowhere
     for (int axis = 0; axis < 3; ++axis)
         for (double value : {1.0, 0.0}) {
-            const Scene scene = sceneOf(boxMesh(4, [&](const glm::dvec3& p) { return 1 - p[axis]; }), onePeak(value));
+            const Scene scene =
+                sceneOf(boxMesh(4, [&](const glm::dvec3& p) { return 1 - p[axis]; }), oneIsosurface(value));
             for (double side : {1.0, -1.0}) {
                 Camera camera = latticeCamera(axis, side);
                 for (bool orthographic : {true, false}) {
@@ -92,13 +94,13 @@ TEST(StressTies, IsosurfacesOfTheBoundarysOwnValue) {
         }
 }
 
-TEST(StressTies, PlateausOfTheIsosurfacesValue) {
+TEST(StressPerturbation, PlateausOfTheIsosurfacesValue) {
     // s rises to 1 in the first third, stays there and falls again: no ray along z is ever above 1
     const auto plateau = [](double z) { return std::min({3 * z, 1.0, 3 * (1 - z)}); };
     for (double turn : {1.0, -1.0}) {
         // turn −1: a valley whose floor is the isosurface: nothing is below it
         const Scene scene =
-            sceneOf(boxMesh(4, [&](const glm::dvec3& p) { return turn * plateau(p.z); }), onePeak(turn));
+            sceneOf(boxMesh(4, [&](const glm::dvec3& p) { return turn * plateau(p.z); }), oneIsosurface(turn));
         Camera camera = cameraAt({0.8, 0.7, 3}, glm::dvec3(0.5), 32, 32);
         camera.fovDegrees = 10;  // all rays pass both walls
         Image expected(32, 32);
@@ -116,7 +118,7 @@ bool holds(const mesh::ScalarMesh& m, const mesh::Tetrahedron& cell, const glm::
     return true;
 }
 
-TEST(StressTies, TheFirstHitIsNoCellThatTheRayOnlyTouches) {
+TEST(StressPerturbation, TheFirstHitIsNoCellThatTheRayOnlyTouches) {
     // rays through pixel centres run along diagonals of the cubes' faces, where cells end in edges
     mesh::ScalarMesh m = boxMesh(5, [](const glm::dvec3& p) { return p.x; });
     m.association = mesh::Association::Cell;
@@ -153,7 +155,7 @@ TEST(StressTies, TheFirstHitIsNoCellThatTheRayOnlyTouches) {
         }
 }
 
-TEST(StressTies, TheFirstHitSeenFromAVertex) {
+TEST(StressPerturbation, TheFirstHitSeenFromAVertex) {
     // most cells about the eye end right there, where they show nothing
     std::mt19937 random(11);
     std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -184,10 +186,10 @@ Scene twoCells(std::mt19937& random) {
     for (std::size_t i = 0; i < 5; ++i) m.scalars.push_back(share(random));
     m.scalars[0] = 0.0;
     m.scalars[4] = share(random) < 0.5 ? 0.05 : 1.0;  // turns at the face or goes on
-    return sceneOf(finished(std::move(m)), onePeak(0.5));
+    return sceneOf(finished(std::move(m)), oneIsosurface(0.5));
 }
 
-TEST(StressTies, ValuesThatFloatTakesForOthers) {
+TEST(StressPerturbation, ValuesThatFloatTakesForOthers) {
     // v lies beside the scalar that a ray has where it enters, passes a face or leaves by less than float tells
     std::mt19937 random(7);
     int tried = 0;
@@ -201,7 +203,7 @@ TEST(StressTies, ValuesThatFloatTakesForOthers) {
         for (double near : {first->scalarIn, first->scalarOut, second->scalarIn, second->scalarOut})
             for (double beside : {-5e-8, 1e-7, 4e-7}) {
                 const double value = near + beside;
-                scene.transferFunction = onePeak(value);
+                scene.transferFunction = oneIsosurface(value);
                 const auto crosses = [&](const RaySegment& s) { return (s.scalarIn < value) != (s.scalarOut < value); };
                 const int times = crosses(*first) + crosses(*second);
                 const Image expected = referenceImage(scene, camera);

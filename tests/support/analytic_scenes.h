@@ -106,7 +106,7 @@ inline preint::TransferFunction smoothFunction(double low, double high, double s
 }
 
 /// Two isosurfaces in a thin mist.
-inline preint::TransferFunction peaksFunction(double low, double high) {
+inline preint::TransferFunction isosurfacesFunction(double low, double high) {
     auto at = [&](double t) { return low + t * (high - low); };
     preint::TransferFunction f;
     f.color = {{at(0.0), {0.3, 0.3, 0.3}}, {at(1.0), {0.7, 0.7, 0.7}}};

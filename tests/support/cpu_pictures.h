@@ -45,7 +45,7 @@ inline projection::Camera wholeView(const mesh::ScalarMesh& m, int width = 52, i
 inline void expectLikeGeneral(const projection::Scene& scene, const projection::Camera& camera,
                               EngineThreshold threshold, const std::string& what) {
     const projection::ImageDifference difference =
-        projection::compareImages(cpuImage(scene, camera), cpuImage(scene, camera, {.quickLooks = false}));
+        projection::compareImages(cpuImage(scene, camera), cpuImage(scene, camera, {.quickVariants = false}));
     EXPECT_LE(difference.rmse, threshold.rmse) << what;
     EXPECT_LE(difference.max, threshold.max) << what;
     EXPECT_GT(difference.max, 0.0) << what << ": the same kernel drew both";

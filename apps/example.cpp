@@ -20,8 +20,8 @@ static void drawCube() {
         values.push_back(std::sin(9 * x) * std::cos(7 * y) + z);
         if (x == 1 || y == 1 || z == 1) continue;
         const unsigned a = i % n, b = i / n % n, c = i / n / n, last = point(a + 1, b + 1, c + 1);
-        const unsigned ring[] = {point(a + 1, b, c), point(a + 1, b + 1, c), point(a, b + 1, c),
-                                 point(a, b + 1, c + 1), point(a, b, c + 1), point(a + 1, b, c + 1)};
+        const unsigned ring[] = {point(a + 1, b, c),     point(a + 1, b + 1, c), point(a, b + 1, c),
+                                 point(a, b + 1, c + 1), point(a, b, c + 1),     point(a + 1, b, c + 1)};
         for (int k = 0; k < 6; ++k) cells.insert(cells.end(), {i, ring[k], ring[(k + 1) % 6], last});
     }
 

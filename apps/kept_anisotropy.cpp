@@ -28,8 +28,8 @@ void KeptAnisotropy::find(const mesh::ScalarMesh& mesh, const std::string& scala
     tensors_ = shading::keptTensors(fields_, settings, scalar);
     if (options_.keptAnisotropy.empty()) return;
     if (mesh.association == mesh::Association::Cell)
-        throw std::runtime_error(
-            fmt::format("--keep-anisotropy: '{}' is on cells, where nothing changes within one; add --smooth-cells", scalar));
+        throw std::runtime_error(fmt::format(
+            "--keep-anisotropy: '{}' is on cells, where nothing changes within one; add --smooth-cells", scalar));
     if (!tensors_) {
         tensors_ = shading::vertexTensors(mesh, settings);
         fields_.push_back(shading::tensorField(*tensors_, settings, scalar));

@@ -67,7 +67,8 @@ public:
     /// mesh is the last one's.
     void moveTo(std::size_t step);
 
-    /// What may be wrong with the transfer function, for people; empty: nothing, or it or its range was chosen on purpose.
+    /// What may be wrong with the transfer function, for people; empty: nothing, or it or its range was chosen on
+    /// purpose.
     std::string advice() const;
 
     const RenderRecord& record() const { return record_; }

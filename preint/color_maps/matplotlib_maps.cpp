@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Written by make_tables.py. Each node is sixteen hexadecimal digits: place, red, green and blue, four digits each, of 65535
-// over the whole; a categorical map's colours have twelve.
+// Written by make_tables.py. Each node is sixteen hexadecimal digits: place, red, green and blue, four digits each, of
+// 65535 over the whole; a categorical map's colours have twelve.
 //
-// Colours of matplotlib (matplotlib.org, PSF-based licence): viridis, inferno, plasma, magma (S. van der Walt, N. Smith,
-// E. Firing: CC0), cividis (J. Nunez, C. Anderton, R. Renslow), turbo (A. Mikhailov, Google: Apache-2.0), maps of
-// ColorBrewer (C. Brewer, M. Harrower, The Pennsylvania State University: Apache-2.0), of yorick (BSD) and matplotlib's own.
+// Colours of matplotlib (matplotlib.org, PSF-based licence): viridis, inferno, plasma, magma (S. van der Walt, N.
+// Smith, E. Firing: CC0), cividis (J. Nunez, C. Anderton, R. Renslow), turbo (A. Mikhailov, Google: Apache-2.0), maps
+// of ColorBrewer (C. Brewer, M. Harrower, The Pennsylvania State University: Apache-2.0), of yorick (BSD) and
+// matplotlib's own.
 #include <preint/color_maps/color_map_table.h>
 
 namespace tetralux::preint {

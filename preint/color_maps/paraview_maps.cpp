@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Written by make_tables.py. Each node is sixteen hexadecimal digits: place, red, green and blue, four digits each, of 65535
-// over the whole; a categorical map's colours have twelve.
+// Written by make_tables.py. Each node is sixteen hexadecimal digits: place, red, green and blue, four digits each, of
+// 65535 over the whole; a categorical map's colours have twelve.
 //
-// Control points of ParaView's and VTK's colour maps (Kitware, Sandia National Laboratories: BSD-3-Clause), among them those
-// of F. Samsel (Los Alamos National Laboratory) and K. Moreland ("Diverging Color Maps for Scientific Visualization", 2009).
+// Control points of ParaView's and VTK's colour maps (Kitware, Sandia National Laboratories: BSD-3-Clause), among them
+// those of F. Samsel (Los Alamos National Laboratory) and K. Moreland ("Diverging Color Maps for Scientific
+// Visualization", 2009).
 #include <preint/color_maps/color_map_table.h>
 
 namespace tetralux::preint {

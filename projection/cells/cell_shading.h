@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
-/// The shading texts (shading/cell_shading.glsl, shading/light_model.glsl and others) in double precision. Here rather than in
-/// shading/ because the prelude is preint's, which shading does not know.
+/// The shading texts (shading/cell_shading.glsl, shading/light_model.glsl and others) in double precision. Here rather
+/// than in shading/ because the prelude is preint's, which shading does not know.
 #pragma once
 
 #include <preint/glsl_prelude.h>

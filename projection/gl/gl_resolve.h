@@ -15,7 +15,7 @@ namespace tetralux::projection {
 /// What the numbers that a frame gathers stand for.
 struct GlGathered {
     Mode mode;
-    DepthRange depths;            ///< of the camera
+    DepthRange depths;              ///< of the camera
     double depthReference, length;  ///< scene lengths; mesh units per scene length
     bool sums;                      ///< light that adds up keeps an alpha above 1 (ContributionWeights::sums)
 };

@@ -47,8 +47,8 @@ void requireFinite(const Image& image, const std::string& name) {
     const auto width = static_cast<std::uint32_t>(image.width);
     const glm::vec4& first = image.pixels[pixels.front()];
     throw std::runtime_error(fmt::format(
-        "{}: {} of its pixels are beyond float, the first at ({}, {}): {}, {}, {}, {}; lower the extinction",
-        name, pixels.size(), pixels.front() % width, pixels.front() / width, first.x, first.y, first.z, first.w));
+        "{}: {} of its pixels are beyond float, the first at ({}, {}): {}, {}, {}, {}; lower the extinction", name,
+        pixels.size(), pixels.front() % width, pixels.front() / width, first.x, first.y, first.z, first.w));
 }
 
 void putUnder(Image& image, const glm::vec3& background) {

@@ -54,7 +54,8 @@ std::vector<FrameLight> frameLights(const shading::ShadingSettings& settings, co
 std::shared_ptr<const shading::VertexLight> vertexLightOf(const Scene& scene,
                                                           const std::vector<shading::Tensor>* kept) {
     if (scene.vertexLight) return scene.vertexLight;
-    shading::VertexLight light = shading::vertexLight(*scene.mesh, scene.settings.shading, samplesVertices(scene), kept);
+    shading::VertexLight light =
+        shading::vertexLight(*scene.mesh, scene.settings.shading, samplesVertices(scene), kept);
     if (light.shadowAt >= 0) addShadows(scene, light);
     if (light.specularAt >= 0) addSpecularFactors(scene, light);
     if (light.sampleAt >= 0) addSamples(scene, light);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file
 /// Lights and materials as the fast engines read them: floats, lengths in scene units, directions along the world's
-/// axes, places relative to a point of the view's axis near the mesh (so that float holds them wherever the mesh lies and
-/// however far the eye is).
+/// axes, places relative to a point of the view's axis near the mesh (so that float holds them wherever the mesh lies
+/// and however far the eye is).
 #pragma once
 
 #include <array>

@@ -159,9 +159,8 @@ void readDocument(const JsonPlace& document, const std::string& origin, shading:
         for (std::size_t i = 0; i < lights.size(); ++i) settings.lights.push_back(lightOf(lights.element(i)));
     });
     ifThere(document, "material", [&](const JsonPlace& material) { readMaterial(material, settings.material); });
-    ifThere(document, "reflectance", [&](const JsonPlace& name) {
-        setReflectance(origin + ": reflectance", name.text(), settings);
-    });
+    ifThere(document, "reflectance",
+            [&](const JsonPlace& name) { setReflectance(origin + ": reflectance", name.text(), settings); });
     ifThere(document, "normals",
             [&](const JsonPlace& name) { settings.normals = normalsOf(origin + ": normals", name.text()); });
     ifThere(document, "anisotropy", [&](const JsonPlace& anisotropy) {

@@ -13,8 +13,8 @@
 ///      "anisotropy": {"radius": 4, "interval": 0.05, "samples": 4, "smoothing": 0, "kappa": 0.2, "gamma": 10},
 ///      "shadows": true or {"softness": 0.1}}
 ///
-/// "specular" of a side is C_spec, "specular" of the material k_s. "phase_asymmetry" makes Henyey and Greenstein's phase
-/// function the diffuse part; without it that is Equation 19's.
+/// "specular" of a side is C_spec, "specular" of the material k_s. "phase_asymmetry" makes Henyey and Greenstein's
+/// phase function the diffuse part; without it that is Equation 19's.
 #pragma once
 
 #include <string>
@@ -30,9 +30,9 @@ void parseLighting(const std::string& text, const std::string& origin, shading::
 /// The same of a file.
 void readLighting(const std::string& path, shading::ShadingSettings& settings);
 
-/// Sets how highlights are formed: "phong", "blinn-phong", "ward", "lafortune", "none", and "henyey-greenstein", which is
-/// short for none with a phase function (of asymmetry 0.3 unless it has one). `what` begins the message.
-/// \throws std::runtime_error listing the names there are
+/// Sets how highlights are formed: "phong", "blinn-phong", "ward", "lafortune", "none", and "henyey-greenstein", which
+/// is short for none with a phase function (of asymmetry 0.3 unless it has one). `what` begins the message. \throws
+/// std::runtime_error listing the names there are
 void setReflectance(const std::string& what, const std::string& name, shading::ShadingSettings& settings);
 
 /// Checks and sets Material::phaseAsymmetry.

@@ -76,8 +76,7 @@ double surfaceShadows(const Scene& scene, const SegmentToLight& segment, const g
     }
     const double rise = glm::dot(segment.fieldNormal, towards);
     for (const preint::Isosurface& surface : scene.transferFunction.isosurfaces)
-        through *=
-            glsl::surfaceShadow(surface.value, surface.opacity, segment.front, segment.back, low, high, rise);
+        through *= glsl::surfaceShadow(surface.value, surface.opacity, segment.front, segment.back, low, high, rise);
     return through;
 }
 
@@ -117,7 +116,8 @@ glm::dvec3 litColor(const Scene& scene, const SegmentToLight& segment) {
             arrivingLight(settings.lights[i], segment.middle, segment.direction, segment.fromEye);
         double shadow = 1.0;
         if (kept.shadowAt >= 0)
-            shadow = attributes.at(kept.shadowAt + static_cast<int>(i)) * surfaceShadows(scene, segment, source.towards);
+            shadow =
+                attributes.at(kept.shadowAt + static_cast<int>(i)) * surfaceShadows(scene, segment, source.towards);
         light += shadow * source.color * glsl::modelTerm(model, point, segment.color, source.towards);
     }
     return light;

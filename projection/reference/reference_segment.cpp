@@ -189,8 +189,8 @@ void splitAtLayerEnd(std::vector<RaySegment>& segments, double layerEnd) {
         if (!segment.inCutLayer || !(segment.tOut > layerEnd)) continue;
         RaySegment behind = segment;
         behind.inCutLayer = false;
-        behind.scalarIn = segment.scalarOut = scalarBetween(
-            segment.scalarIn, segment.scalarOut, (layerEnd - segment.tIn) / (segment.tOut - segment.tIn));
+        behind.scalarIn = segment.scalarOut =
+            scalarBetween(segment.scalarIn, segment.scalarOut, (layerEnd - segment.tIn) / (segment.tOut - segment.tIn));
         behind.tIn = segment.tOut = layerEnd;
         segments.push_back(behind);
     }

@@ -32,9 +32,7 @@ public:
         if (glm::any(glm::lessThan(eye_, low - near)) || glm::any(glm::greaterThan(eye_, high + near))) return;
         std::array<bool, 4> touched{};
         for (std::size_t k = 0; k < 4; ++k) {
-            const auto corner = [&](std::size_t i) {
-                return p[static_cast<std::size_t>(mesh::faceVertices[k][i])];
-            };
+            const auto corner = [&](std::size_t i) { return p[static_cast<std::size_t>(mesh::faceVertices[k][i])]; };
             const glm::dvec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
             const double size = glm::length(normal);
             const double outside = size > 0 ? glm::dot(normal, eye_ - corner(0)) / size : 0.0;  // faces turn outwards

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <mesh/tet/field_surface.h>
 #include <mesh/io/read_surface.h>
+#include <mesh/tet/field_surface.h>
 
 namespace tetralux::mesh {
 namespace {

@@ -309,8 +309,9 @@ TEST(Light, SmoothNormalsOfALinearFieldAreThoseOfTheCells) {
     EXPECT_LE(compareImages(cells, referenceOf(scene, camera)).max, 1e-5);
 }
 
-// Ament & Dachsbacher 2015, Figure 7: on the Marschner–Lobb signal a highlight that follows the field's fibres shows more
-// structure than the same lobe at γ = 0. Ward's, whose norm dims it as it grows, only where it is bright (k_s = 16).
+// Ament & Dachsbacher 2015, Figure 7: on the Marschner–Lobb signal a highlight that follows the field's fibres shows
+// more structure than the same lobe at γ = 0. Ward's, whose norm dims it as it grows, only where it is bright (k_s =
+// 16).
 TEST(Light, AnisotropicLightShowsMoreStructureThanItsLobe) {
     Scene scene = sceneOf(sampledMesh(mesh::proceduralField("marschner-lobb", 41), 41), {}, Mode::Standard);
     scene.transferFunction.color = {{0.0, {0.75, 0.6, 0.45}}};

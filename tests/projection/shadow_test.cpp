@@ -86,8 +86,7 @@ double worstError(const Box& box, const mesh::ScalarMesh& m, const shading::Ligh
         const glm::dvec3 way = near ? light.position - p : light.towards;
         const double reach = near ? glm::length(way) : infinity;
         if (reach == 0) continue;
-        worst = std::max(worst,
-                         std::abs(shadows[i] - std::exp(-extinction * box.way(p, glm::normalize(way), reach))));
+        worst = std::max(worst, std::abs(shadows[i] - std::exp(-extinction * box.way(p, glm::normalize(way), reach))));
     }
     return worst;
 }
@@ -133,13 +132,20 @@ TEST(Shadows, OfAParallelepiped) {
 TEST(Shadows, OfPointLightsInAUniformBox) {
     const Box box;
     const mesh::ScalarMesh m = box.mesh(9);
-    for (const glm::dvec3& place : {glm::dvec3(0.5, 0.5, 2), {0, 0, 3}, {1, 0.25, 1}, {0.5, 0.5, 0.5}, {0.3, 0.41, 0.77},
-                                    {0, 0, 0}, {0.5, 1, 0.5}, {-1, -1, -1}, {1.5, 0.375, 0.625}})
+    for (const glm::dvec3& place : {glm::dvec3(0.5, 0.5, 2),
+                                    {0, 0, 3},
+                                    {1, 0.25, 1},
+                                    {0.5, 0.5, 0.5},
+                                    {0.3, 0.41, 0.77},
+                                    {0, 0, 0},
+                                    {0.5, 1, 0.5},
+                                    {-1, -1, -1},
+                                    {1.5, 0.375, 0.625}})
         EXPECT_LE(worstError(box, m, point(place)), 1e-4) << place.x << ' ' << place.y << ' ' << place.z;
 }
 
-// Over the disc of an area light, which a face divides into halves: by many more points than the light's 32, of which one
-// stands for 0.03.
+// Over the disc of an area light, which a face divides into halves: by many more points than the light's 32, of which
+// one stands for 0.03.
 TEST(Shadows, OfAreaLightsInAUniformBox) {
     const Box box;
     const mesh::ScalarMesh m = box.mesh(5);
@@ -203,7 +209,8 @@ double fromMiddle(const glm::dvec3& p) {
     return glm::distance(p, glm::dvec3(0.5));
 }
 
-Scene ofSurfaces(const mesh::ScalarMesh& m, const std::vector<preint::Isosurface>& surfaces, const glm::dvec3& towards) {
+Scene ofSurfaces(const mesh::ScalarMesh& m, const std::vector<preint::Isosurface>& surfaces,
+                 const glm::dvec3& towards) {
     Scene scene = shadowScene(m, constantFunction(0), directional(towards));
     scene.transferFunction.isosurfaces = surfaces;
     scene.settings.shading.ambient = 0;
@@ -241,7 +248,8 @@ TEST(Shadows, OfIsosurfacesUponEachOther) {
     const auto height = [](const glm::dvec3& p) { return p.z; };
     const std::vector<preint::Isosurface> layers{{0.2, 0.5, {1, 1, 1}}, {0.5, 0.4, {1, 1, 1}}, {0.8, 0.3, {1, 1, 1}}};
     for (const int n : {4, 9}) {
-        // seen from the dark side, along the light: transmission, α(1 − α)(c + 1) of each, by the light that comes to it
+        // seen from the dark side, along the light: transmission, α(1 − α)(c + 1) of each, by the light that comes to
+        // it
         const Scene scene = ofSurfaces(boxMesh(n, height), layers, {0, 0, 1});
         Camera camera = cameraAt({0.5, 0.5, -3}, glm::dvec3(0.5), 8, 8);
         camera.orthographicHeight = 0.8;
@@ -290,7 +298,8 @@ TEST(Shadows, OfOneBallUponAnother) {
     EXPECT_GT(dark, 10);
 }
 
-// Rows that cells with isosurfaces have of their own reach every engine and path; so do silhouettes of smoothed gradients.
+// Rows that cells with isosurfaces have of their own reach every engine and path; so do silhouettes of smoothed
+// gradients.
 TEST(Shadows, EnginesAgree) {
     for (const Mode mode : {Mode::Standard, Mode::ScaleInvariant}) {
         Scene scene = sceneOf(jitteredBoxMesh(9, 0.2, 3, fromMiddle), smoothFunction(0, 0.87, 3.0), mode);
@@ -304,8 +313,10 @@ TEST(Shadows, EnginesAgree) {
         const Camera camera = cameraAt({1.9, 1.4, 2.3});
         const Image reference = referenceThatShows(scene, camera);
         // silhouettes multiply what tables are off by k
-        for (const EngineOptions& options : {EngineOptions{"cpu", "auto"}, {"gl", "auto", "stream"},
-                                             {"gl", "auto", "resident"}, {"gl", "auto", "tiles"}})
+        for (const EngineOptions& options : {EngineOptions{"cpu", "auto"},
+                                             {"gl", "auto", "stream"},
+                                             {"gl", "auto", "resident"},
+                                             {"gl", "auto", "tiles"}})
             expectLike(reference, scene, camera, options, {5e-5, 2e-3}, "shadows " + options.glPath);
     }
 }

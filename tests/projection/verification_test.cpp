@@ -63,10 +63,12 @@ TEST(Verification, TellsHowManyHaveToBeSeen) {
     EXPECT_GT(pixelsToVouchFor(0.1, 10000, 5.0), pixelsToVouchFor(0.1, 10000)) << "brighter pictures may be more wrong";
 }
 
-// One pixel in a hundred is wrong by all that a channel can be, and few samples meet one: the bound has to hold all the same.
+// One pixel in a hundred is wrong by all that a channel can be, and few samples meet one: the bound has to hold all the
+// same.
 TEST_F(VerifyImage, BoundsWhatItHasNotSeen) {
     Image wrong = exact;
-    for (std::size_t i = 0; i < wrong.pixels.size(); i += 100) wrong.pixels[i].x = wrong.pixels[i].x < 0.5f ? 1.0f : 0.0f;
+    for (std::size_t i = 0; i < wrong.pixels.size(); i += 100)
+        wrong.pixels[i].x = wrong.pixels[i].x < 0.5f ? 1.0f : 0.0f;
     const double rmse = compareImages(wrong, exact).rmse;
     int held = 0, blind = 0;
     for (std::uint32_t seed = 0; seed < 100; ++seed) {

@@ -69,8 +69,8 @@ TEST(LightModel, WardIsEquations9To11) {
                                        vec3(tensor(0, 1), tensor(0, 2), tensor(1, 2)));
         const double u = std::min(model.kappa * std::pow(ratio, model.gamma), 10.0);
         const vec3 h = normalize(l + v);
-        const double slopes = (std::pow(dot(h, fibre), 2) / u + std::pow(dot(h, across), 2) / model.kappa) /
-                              std::pow(dot(h, n), 2);
+        const double slopes =
+            (std::pow(dot(h, fibre), 2) / u + std::pow(dot(h, across), 2) / model.kappa) / std::pow(dot(h, n), 2);
         const double wanted = std::exp(-slopes) / (4 * pi * std::sqrt(u * model.kappa * dot(l, n) * dot(v, n)));
         EXPECT_NEAR(wardLobe(point, l), wanted, 1e-6 * (1 + wanted));
         const double facing = std::abs(dot(l, n));
@@ -90,8 +90,7 @@ TEST(LightModel, LafortuneIsEquation12) {
         const auto tensor = [&](int a, int b) { return ratio * fibre[a] * fibre[b] + across[a] * across[b]; };
         const LitPoint point = pointOf(model, n, v, vec3(tensor(0, 0), tensor(1, 1), tensor(2, 2)),
                                        vec3(tensor(0, 1), tensor(0, 2), tensor(1, 2)));
-        const double base =
-            u * dot(l, fibre) * dot(v, fibre) - dot(l, across) * dot(v, across) + dot(l, n) * dot(v, n);
+        const double base = u * dot(l, fibre) * dot(v, fibre) - dot(l, across) * dot(v, across) + dot(l, n) * dot(v, n);
         EXPECT_NEAR(lafortuneLobe(point, l, 7), std::pow(std::max(base, 0.0), 7), 1e-6);
     }
 }

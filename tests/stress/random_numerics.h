@@ -46,16 +46,16 @@ public:
         made.scene = sceneOf(m, function(m, mode), mode);
         made.camera = camera(*made.scene.mesh);
         setOptions(made.scene);
-        made.what = fmt::format("{} mode {} size {:.0e}", what_, static_cast<int>(mode),
-                                std::min({size.x, size.y, size.z}));
+        made.what =
+            fmt::format("{} mode {} size {:.0e}", what_, static_cast<int>(mode), std::min({size.x, size.y, size.z}));
         return made;
     }
 
 private:
     using Mode = projection::Mode;
-    static constexpr Mode modes[] = {Mode::Standard, Mode::Standard,  Mode::ScaleInvariant, Mode::Mip,
-                                     Mode::Minimum,  Mode::Average,   Mode::Additive,       Mode::DataAdditive,
-                                     Mode::Emission, Mode::Absorption, Mode::FirstHit,      Mode::Depth};
+    static constexpr Mode modes[] = {Mode::Standard, Mode::Standard,   Mode::ScaleInvariant, Mode::Mip,
+                                     Mode::Minimum,  Mode::Average,    Mode::Additive,       Mode::DataAdditive,
+                                     Mode::Emission, Mode::Absorption, Mode::FirstHit,       Mode::Depth};
 
     void note(const std::string& text) { what_ += (what_.empty() ? "" : ", ") + text; }
 
@@ -82,15 +82,28 @@ private:
         m.scalars.resize(cells ? m.cells.size() : m.positions.size());
         const int kind = below(6);
         const double decades = 2 + 12 * share(), offset = pick(std::array{0.5, -1.0, 1e3, 1e-3});
-        static constexpr const char* names[] = {"decades", "decades beside an offset", "labels", "plateaus", "plain", "wide"};
+        static constexpr const char* names[] = {"decades", "decades beside an offset", "labels", "plateaus", "plain",
+                                                "wide"};
         for (double& s : m.scalars) {
             switch (kind) {
-                case 0: s = std::pow(10.0, -decades * share()); break;
-                case 1: s = offset + std::pow(10.0, -decades * share()); break;
-                case 2: s = below(5) / 3.0; break;
-                case 3: s = std::clamp(2 * share() - 0.5, 0.0, 1.0); break;
-                case 4: s = share(); break;
-                default: s = std::pow(10.0, -30 + 60 * share()); break;
+                case 0:
+                    s = std::pow(10.0, -decades * share());
+                    break;
+                case 1:
+                    s = offset + std::pow(10.0, -decades * share());
+                    break;
+                case 2:
+                    s = below(5) / 3.0;
+                    break;
+                case 3:
+                    s = std::clamp(2 * share() - 0.5, 0.0, 1.0);
+                    break;
+                case 4:
+                    s = share();
+                    break;
+                default:
+                    s = std::pow(10.0, -30 + 60 * share());
+                    break;
             }
         }
         note(fmt::format("{}{}", names[kind], cells ? " of cells" : ""));
@@ -105,8 +118,7 @@ private:
     preint::TransferFunction function(const mesh::ScalarMesh& m, Mode mode) {
         preint::TransferFunction f;
         const double range = std::max(m.scalarMax - m.scalarMin, 1e-300);
-        const double extent =
-            projection::integralOf(mode) == preint::Integral::ScaleInvariant ? range : thinnest(m);
+        const double extent = projection::integralOf(mode) == preint::Integral::ScaleInvariant ? range : thinnest(m);
         std::vector<double> scalars;
         for (int i = 2 + below(4); i > 0; --i) scalars.push_back(nodeScalar(m));
         std::sort(scalars.begin(), scalars.end());
@@ -119,8 +131,7 @@ private:
             add();
             if (oneIn(4)) add();  // a jump
         }
-        if (oneIn(3))
-            f.isosurfaces.push_back({nodeScalar(m), 0.2 + 0.7 * share(), {share(), share(), share()}});
+        if (oneIn(3)) f.isosurfaces.push_back({nodeScalar(m), 0.2 + 0.7 * share(), {share(), share(), share()}});
         return f;
     }
 
@@ -135,8 +146,9 @@ private:
         glm::dvec3 eye, target = centre, direction(0.3 + share(), 0.2 + share(), -0.5 + share());
         direction = glm::normalize(direction);
         const int kind = below(7);
-        static constexpr const char* names[] = {"eye anywhere", "eye along an edge", "eye in a face's plane",
-                                                "eye on a corner", "eye beside a corner", "eye far away", "along an axis"};
+        static constexpr const char* names[] = {"eye anywhere",    "eye along an edge",   "eye in a face's plane",
+                                                "eye on a corner", "eye beside a corner", "eye far away",
+                                                "along an axis"};
         double distance = 1.5 + 2 * share();
         eye = centre + length * distance * direction;
         double reach = length;
@@ -175,9 +187,12 @@ private:
         projection::Camera camera = cameraAt(eye, target, 24 - below(2), 24 - below(2));
         const glm::dvec3 forward = glm::normalize(target - eye);
         camera.up = std::abs(forward.y) > 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
-        if (kind == 5) camera.fovDegrees = 2 * std::atan(0.6 * length / reach) * 180 / 3.14159265358979;
-        else if (kind != 3 && kind != 4 && oneIn(4)) camera.orthographicHeight = length * (0.3 + share());
-        else camera.fovDegrees = kind == 3 || kind == 4 ? 70 : 20 + 20 * share();
+        if (kind == 5)
+            camera.fovDegrees = 2 * std::atan(0.6 * length / reach) * 180 / 3.14159265358979;
+        else if (kind != 3 && kind != 4 && oneIn(4))
+            camera.orthographicHeight = length * (0.3 + share());
+        else
+            camera.fovDegrees = kind == 3 || kind == 4 ? 70 : 20 + 20 * share();
         note(names[kind]);
         return camera;
     }
@@ -192,7 +207,8 @@ private:
             normal[below(3)] = oneIn(2) ? 1 : -1;
             if (oneIn(2)) normal = glm::dvec3(share() - 0.5, share() - 0.5, share() - 0.5);
             scene.mapSources.push_back(std::make_shared<projection::ClipRegion>(
-                std::vector<projection::HalfSpace>{{scene.mesh->bounds.low + size * (0.25 + 0.5 * share()), normal}}, 0.0));
+                std::vector<projection::HalfSpace>{{scene.mesh->bounds.low + size * (0.25 + 0.5 * share()), normal}},
+                0.0));
             note("clip plane");
         }
         if (shades && oneIn(4)) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random scenes where floats have least room (random_numerics.h): what an engine cannot vouch for it must know. Every
-// pixel of cpu and gl is the reference's to 1e-4. TETRALUX_RANDOM_SCENES=N tries N scenes instead of a few seconds' worth;
-// TETRALUX_RANDOM_SEED=K begins at scene K.
+// pixel of cpu and gl is the reference's to 1e-4. TETRALUX_RANDOM_SCENES=N tries N scenes instead of a few seconds'
+// worth; TETRALUX_RANDOM_SEED=K begins at scene K.
 #include <cstdlib>
 
 #include <tests/stress/engine_cases.h>

@@ -128,7 +128,8 @@ TEST(StressValues, CellDataAtAJumpStaysThereWhereItIsCut) {
             std::make_shared<ClipRegion>(std::vector<HalfSpace>{{{0.4, 0.4, 0.4}, {-0.3, -0.4, -0.8}}}, 0.0)};
         Scene constant = scene;
         constant.transferFunction = constantFunction(2.0, above);
-        const Image expected = makeEngine(constant, {.engine = "reference"})->render(camera, *std::make_unique<FrameReport>());
+        const Image expected =
+            makeEngine(constant, {.engine = "reference"})->render(camera, *std::make_unique<FrameReport>());
         EXPECT_GT(coveredShare(expected), 0.1);
         holdEnginesTo(expected, scene, camera, {1e-5, 1e-4}, "cell data at a jump, cut");
     }

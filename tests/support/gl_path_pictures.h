@@ -82,8 +82,8 @@ inline void expectSame(const Scene& scene, const std::vector<View>& views, const
     for (const std::string context : {"egl", "osmesa"}) expectSame(scene, views, path, context);
 }
 
-inline const std::vector<Mode> pathModes{Mode::Standard, Mode::ScaleInvariant, Mode::Mip,          Mode::Minimum,
-                                         Mode::Average,  Mode::Additive,       Mode::Emission,     Mode::Absorption,
+inline const std::vector<Mode> pathModes{Mode::Standard, Mode::ScaleInvariant, Mode::Mip,      Mode::Minimum,
+                                         Mode::Average,  Mode::Additive,       Mode::Emission, Mode::Absorption,
                                          Mode::FirstHit, Mode::Depth};
 
 /// In two lights, with silhouettes or with smooth normals, which vertices carry.

@@ -206,9 +206,7 @@ void addAnnotationOptions(CLI::App& command, AnnotationOptions& options) {
 }
 
 projection::Margins marginsFor(const AnnotationOptions& options, const AnnotatedScene& scene, int width, int height) {
-    // a pixel at least, but half of a tiny picture is for the mesh
-    const double across = std::clamp(1.5 / width, 0.02, 0.25), down = std::clamp(1.5 / height, 0.02, 0.25);
-    projection::Margins margins{across, across, down, down};
+    projection::Margins margins = projection::evenMargins(0.02, width, height);
     projection::Camera camera;
     camera.width = width;
     camera.height = height;

@@ -126,6 +126,12 @@ Camera turned(const Camera& camera, const ViewTurn& turn) {
     return result;
 }
 
+Margins evenMargins(double share, int width, int height) {
+    const double across = std::max(share, std::min(1.5 / width, 0.25));
+    const double down = std::max(share, std::min(1.5 / height, 0.25));
+    return {across, across, down, down};
+}
+
 Camera fitted(const Camera& camera, const ViewDirection& view, std::span<const glm::dvec3> points,
               const Margins& margins) {
     if (points.empty()) throw std::runtime_error("view: there is nothing to hold in it");

@@ -42,6 +42,9 @@ struct Margins {
     double left = 0.02, right = 0.02, top = 0.02, bottom = 0.02;
 };
 
+/// This share at every edge, but a pixel at least, and so for a tiny picture half of it for what shows.
+Margins evenMargins(double share, int width, int height);
+
 /// `camera` (its size, field of view, whether it is orthographic, and window centre are kept) in that direction, as
 /// near as it can be with all `points` within its picture but for the margins; an orthographic one gets the height.
 /// Points of no extent are seen from a distance of 1. \throws std::runtime_error when there are no points, or `up` is

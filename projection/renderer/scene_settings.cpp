@@ -182,7 +182,7 @@ projection::Camera fittedSceneCamera(const FittedView& view, std::span<const glm
     const projection::ViewDirection direction = projection::turned(
         projection::ViewDirection{vec(view.direction), vec(view.up)}, {view.azimuth, view.elevation, view.roll});
     return projection::zoomed(
-        projection::fitted(camera, direction, points, {view.margin, view.margin, view.margin, view.margin}), view.zoom);
+        projection::fitted(camera, direction, points, projection::evenMargins(view.margin, width, height)), view.zoom);
 }
 
 }  // namespace tetralux::renderer

@@ -56,7 +56,7 @@ struct FittedView {
     double fovDegrees = 30;            ///< vertical
     bool orthographic = false;         ///< then of the height that what shows asks for
     double zoom = 1;                   ///< then narrowed by this factor
-    double margin = 0.02;              ///< share of the picture that stays free at each edge
+    double margin = 0.02;              ///< share of the picture that stays free at each edge, or a pixel
     bool wholeMesh = false;            ///< held are hidden cells as well
 
     /// x, -x, y, -y, z, -z (the eye stands on that side), iso (from 1, 1, 1), and xy, xz, yz, yx, zx, zy as PyVista has

@@ -85,7 +85,7 @@ HWY_INLINE void storeInTwo(wide value, float* to, float* rest) {
 }
 
 /// Cells in which a plane changes so much over the cell's image that floats, which err by 2^-24 of that, misjudge it by
-/// more than 2^-14 of the cell's thickness (at the reference point).
+/// more than 2^-11 of the cell's thickness (at the reference point).
 HWY_INLINE wide_mask steepCells(const ProjectedCell& cell, const hn::Vec<DoubleTag> (&pixels)[4]) {
     const hn::Repartition<float, DoubleTag> pairs;
     const auto p0 = hn::BitCast(pairs, pixels[0]), p1 = hn::BitCast(pairs, pixels[1]),
@@ -98,7 +98,7 @@ HWY_INLINE wide_mask steepCells(const ProjectedCell& cell, const hn::Vec<DoubleT
         most = max(most, abs(cell.plane[k][1]) + abs(cell.plane[k][2]));
         least = min(least, abs(cell.plane[k][0]));
     }
-    return most * reach > wide(1024.0) * least;
+    return most * reach > wide(8192.0) * least;
 }
 
 HWY_INLINE void keepInDouble(const ProjectedCell& cell, wide offsetX, wide offsetY, std::size_t j, SteepCells& steep) {

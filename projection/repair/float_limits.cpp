@@ -53,6 +53,7 @@ constexpr double mostOblique = 16.0;
 constexpr double largestPerturbation = 1e-2;  // of a cell's range, by which an isosurface stands elsewhere in float
 constexpr double largestColorError = 1e-4;
 constexpr double largestHiddenShare = 0.25;  // of a cell, which float takes for nothing or for something
+constexpr double mostLostErrors = 4.0;       // of the scalar: narrower parts of a cell's scalars may be lost
 constexpr double leastFloat = 2e-38;         // scene scalars below it are none to float
 constexpr double levelFace = 64.0;           // a face whose scalars differ by fewer of its errors is level to float
 
@@ -227,7 +228,8 @@ private:
     }
 
     /// Whether floats do not tell well enough where in the cell extinction begins or ends: for distances to there, how
-    /// far it is; where anything counts for something, whether there is any.
+    /// far it is; where anything counts for something, whether there is any. A part of the cell's scalars that is lost
+    /// in their rounding may be lost by all cells about it, and with it what a ray meets first.
     bool missesBeginning(mesh::CellIndex cell, const CellScalars& scalars) const {
         const double error = scalarError(scalars);
         const auto meets = [&](double scalar) {
@@ -237,6 +239,10 @@ private:
         if (std::none_of(support_.begin(), support_.end(),
                          [&](const ShownScalars& shown) { return meets(shown.low) || meets(shown.high); }))
             return false;
+        for (const ShownScalars& shown : support_) {
+            const double part = std::min(shown.high, scalars.high) - std::max(shown.low, scalars.low);
+            if (part > 0 && part <= mostLostErrors * error) return true;
+        }
         const double share = scalars.width() > error ? error / scalars.width() : 1.0;
         if (use_.gathers != FloatUse::Gathers::Crossings) return share > largestHiddenShare;
         return share * shapeOf(mesh_, cell).longestEdge > largestColorError * mesh_.bounds.diagonal();

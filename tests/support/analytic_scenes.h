@@ -45,7 +45,8 @@ inline mesh::ScalarMesh boxMesh(int n, const std::function<double(const glm::dve
     return sampledMesh({"box", "s", {low, high}, value, {}}, n);
 }
 
-/// The same with inner points moved by up to `share` of the spacing, scalars sampled at the moved points.
+/// The same with inner points moved by up to `share` of the spacing, scalars sampled at the moved points. Where it is
+/// above 1/6, cells may fold, and what is covered twice counts twice.
 inline mesh::ScalarMesh jitteredBoxMesh(int n, double share, unsigned seed,
                                         const std::function<double(const glm::dvec3&)>& value) {
     mesh::ScalarMesh m = boxMesh(n, value);

@@ -81,6 +81,8 @@ def ament(draw, volumes):
 
     packed = volumes("packed", "packed_ellipsoids")
     row = ["--eye", "3,-30,6.75", "--up", "0,0,1", "--fov", "27"] + SMOOTH + ["--light", "0.15,-1,0.1", "--ambient", "0.15", "--no-transmission"]
+    kept = "anisotropy(radius=2,interval=0.05,samples=4,smoothing=0) of s"  # taken up in the place of an estimate
+    draw("ament-5a", volumes("packed-curvatures", "packed_ellipsoids", kept), dull, row + lobe("ward", 3, radius=2, **ward), lighting=bright)
     for name, radius in (("b", 2), ("c", 8)):
         draw("ament-5" + name, packed, dull, row + lobe("ward", 10, radius=radius, **ward), lighting=bright)
 
@@ -88,8 +90,9 @@ def ament(draw, volumes):
     study = {"a": (60, 6, 0.02, 4, 0), "b": (10, 6, 0.02, 4, 0), "c": (60, 1, 0.02, 4, 0), "d": (10, 1, 0.02, 4, 0),
              "e": (60, 6, 0.5, 4, 0), "f": (10, 6, 0.5, 4, 0), "g": (60, 6, 0.02, 1, 0), "h": (60, 6, 0.02, 1, 8)}
     for name, (gamma, radius, interval, samples, smoothing) in study.items():
-        draw("ament-6" + name, field, dull,
-             solid + lamp + lobe("ward", gamma, radius=radius, interval=interval, samples=samples, smoothing=smoothing, **ward), lighting=bright)
+        estimate = dict(radius=radius, interval=interval, samples=samples, smoothing=smoothing)
+        draw("ament-6" + name + "-ward", field, dull, solid + lamp + lobe("ward", gamma, **estimate, **ward), lighting=bright)
+        draw("ament-6" + name + "-lafortune", field, dull, solid + lamp + lobe("lafortune", gamma, **estimate, kappa=25))
 
     rings = {"normalized": True, "color": [[0, *SAND]], "extinction": [[0, 0], [0.5, 0], [0.53, 60], [1, 60]]}
     signal = ["--eye", "2.6,1.9,4.2", "--up", "0,0,1", "--fov", "41", "--light", "1,1,2", "--ambient", "0.15", "--no-transmission"] + SMOOTH

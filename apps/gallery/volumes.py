@@ -5,18 +5,26 @@ import math
 import sys
 
 
-def write(path, counts, low, high, value):
-    """`value(x, y, z)` at counts[0] × counts[1] × counts[2] points from low to high."""
-    steps = [(h - l) / (n - 1) for l, h, n in zip(low, high, counts)]
-    xs, ys, zs = ([l + i * s for i in range(n)] for l, s, n in zip(low, steps, counts))
-    values = array.array("f", (value(x, y, z) for z in zs for y in ys for x in xs))
+def big_endian(numbers):
+    values = array.array("f", numbers)
     if sys.byteorder == "little":
         values.byteswap()
+    return values
+
+
+def write(path, counts, low, high, value, tensor=None, tensors_name=None):
+    """`value(x, y, z)` at counts[0] × counts[1] × counts[2] points from low to high, and the six numbers of `tensor(x, y, z)` if there is one."""
+    steps = [(h - l) / (n - 1) for l, h, n in zip(low, high, counts)]
+    xs, ys, zs = ([l + i * s for i in range(n)] for l, s, n in zip(low, steps, counts))
+    values = big_endian(value(x, y, z) for z in zs for y in ys for x in xs)
     with open(path, "wb") as out:
         out.write(b"# vtk DataFile Version 3.0\ngallery\nBINARY\nDATASET STRUCTURED_POINTS\n")
         out.write(("DIMENSIONS %d %d %d\nORIGIN %r %r %r\nSPACING %r %r %r\n" % (*counts, *low, *steps)).encode())
         out.write(("POINT_DATA %d\nSCALARS s float 1\nLOOKUP_TABLE default\n" % len(values)).encode())
         values.tofile(out)
+        if tensor is not None:
+            out.write(("FIELD tensors 1\n%s 6 %d float\n" % (tensors_name.replace(" ", "%20"), len(values))).encode())
+            big_endian(t for z in zs for y in ys for x in xs for t in tensor(x, y, z)).tofile(out)
 
 
 def ellipsoid(path, a, b, c, points=33):
@@ -24,8 +32,50 @@ def ellipsoid(path, a, b, c, points=33):
     write(path, (points,) * 3, (-1,) * 3, (1,) * 3, lambda x, y, z: 1 - math.sqrt((x / a) ** 2 + (y / b) ** 2 + (z / c) ** 2))
 
 
-def packed_ellipsoids(path):
-    """One layer of ellipsoids side by side, three times as long as wide in the middle of the row and round at its ends."""
+def curvature_tensor(value, x, y, z, step=1e-3):
+    """(xx, yy, zz, xy, xz, yz) of Σ e eᵀ/√|κ| over the principal curvatures κ and directions e of the level set (Kindlmann et al. 2003), from
+    differences of `value`: as long as the axes of Dupin's indicatrix, longest where the level set bends least."""
+    at = (x, y, z)
+
+    def moved(*moves):
+        point = list(at)
+        for axis, by in moves:
+            point[axis] += by * step
+        return value(*point)
+
+    middle = value(*at)
+    gradient = [(moved((i, 1)) - moved((i, -1))) / (2 * step) for i in range(3)]
+    length = math.sqrt(sum(g * g for g in gradient))
+    if length < 1e-9:
+        return (0.0,) * 6
+    n = [g / length for g in gradient]
+    hessian = [[0.0] * 3 for _ in range(3)]
+    for i in range(3):
+        hessian[i][i] = (moved((i, 1)) + moved((i, -1)) - 2 * middle) / step ** 2
+        for j in range(i):
+            hessian[i][j] = hessian[j][i] = (moved((i, 1), (j, 1)) - moved((i, 1), (j, -1)) - moved((i, -1), (j, 1)) + moved((i, -1), (j, -1))) / (4 * step ** 2)
+    # two directions within the level set, and the Hessian there
+    least = min(range(3), key=lambda k: abs(n[k]))
+    u = [(1.0 if k == least else 0.0) - n[least] * n[k] for k in range(3)]
+    norm = math.sqrt(sum(c * c for c in u))
+    u = [c / norm for c in u]
+    v = [n[1] * u[2] - n[2] * u[1], n[2] * u[0] - n[0] * u[2], n[0] * u[1] - n[1] * u[0]]
+    bend = lambda p, q: sum(p[i] * hessian[i][j] * q[j] for i in range(3) for j in range(3)) / length
+    uu, uv, vv = bend(u, u), bend(u, v), bend(v, v)
+    turn = 0.5 * math.atan2(2 * uv, uu - vv)
+    result = [[0.0] * 3 for _ in range(3)]
+    for angle in (turn, turn + math.pi / 2):
+        e = [math.cos(angle) * p + math.sin(angle) * q for p, q in zip(u, v)]
+        reach = 1 / math.sqrt(max(abs(bend(e, e)), 0.05))
+        for i in range(3):
+            for j in range(3):
+                result[i][j] += reach * e[i] * e[j]
+    return (result[0][0], result[1][1], result[2][2], result[0][1], result[0][2], result[1][2])
+
+
+def packed_ellipsoids(path, tensors_name=None):
+    """One layer of ellipsoids side by side, three times as long as wide in the middle of the row and round at its ends; with a name of tensors
+    also those of the principal curvatures."""
     columns, rows, pitch = 7, 5, 1.0
 
     def value(x, y, z):
@@ -38,7 +88,8 @@ def packed_ellipsoids(path):
         dx, dz = (x - i * pitch) / (0.5 * pitch), (z - (k + 0.5) * step) / (0.5 * step)
         return 1 - math.sqrt(dx * dx + (y / (0.5 * pitch)) ** 2 + dz * dz)
 
-    write(path, (49, 9, 91), (-0.6, -0.6, -0.2), (6.6, 0.6, 13.7), value)
+    tensor = None if tensors_name is None else lambda x, y, z: curvature_tensor(value, x, y, z)
+    write(path, (49, 9, 91), (-0.6, -0.6, -0.2), (6.6, 0.6, 13.7), value, tensor, tensors_name)
 
 
 def tubes(path, points=41):

@@ -227,8 +227,8 @@ SIMULATIONS = [
     ("stress", "tet/bracket_appended_compressed.vtu", "sj2p", BRACKET, ramp(DEEP, [[0, 8], [0.2, 25], [0.5, 120], [1, 600]]),
      ramp(DEEP, [[0, 4], [0.12, 10], [0.2, 300], [1, 900]]), ["--smooth-cells", "--light", "0.5,-0.6,1", "--ambient", "0.35"] + SMOOTH),
     ("reservoir", "mixed/UNISIM-II-D.vtu", "BLOCK_K", view("321000,7473200,2200", "314000,7481600,-1850", "0,0,1", "26"),
-     ramp(DEEP, [[0, 0.02], [1, 0.02]]), ramp(DEEP, [[0, 0.02], [1, 0.02]]),
-     ["--smooth-cells", "--clip-plane=314000,7481000,-1800,-0.5,1,0", "--light", "0.5,-0.6,1", "--ambient", "0.4"]),
+     ramp(DEEP, [[0, 0.02], [1, 0.02]]), "Spectral",
+     ["--scale", "1,1,6", "--direction=-0.5,1,-0.6", "--up", "0,0,1", "--boundary", "--light", "0.6,-0.8,0.6", "--ambient", "0.3"]),
     ("fire", "mixed/fire_ug.vtu", "t", view("8.4,4.4,10.4", "3.2,1.1,1.2", "0,1,0", "36"), ramp(FLAME, [[0, 0], [0.05, 0.15], [0.3, 2], [1, 14]]),
      dict(ramp(FLAME, [[0, 0], [0.05, 0.15], [0.3, 2], [1, 14]]), isosurfaces=[{"value": 0.3, "opacity": 0.5, "color": [1, 0.55, 0.2]}]),
      ["--light", "0.3,1,0.6", "--ambient", "0.4", "--slice", "3,1.25,0.02,0,0,1", "--isolines", "10", "--silhouette"] + SMOOTH),
@@ -245,7 +245,8 @@ def simulations(draw, draw_with_vtk, data):
             continue
         draw(f"simulation-{name}", file, function, camera + ["--scalar", scalar])
         draw_with_vtk(f"simulation-{name}-vtk", file, scalar, function, camera)
-        draw(f"simulation-{name}-more", file, more, camera + ["--scalar", scalar] + options)
+        own_view = any(option.startswith("--direction") for option in options)
+        draw(f"simulation-{name}-more", file, more, ([] if own_view else camera) + ["--scalar", scalar] + options)
 
 
 ALL = [kraus, ament, marchesin, lecture, hybrid]

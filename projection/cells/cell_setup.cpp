@@ -125,7 +125,7 @@ CellRecord CellProjector::record(mesh::CellIndex cell) const {
         raw[k] = mesh_.scalarAt(cell, static_cast<int>(sorted.order[k]));
         s[k] = units_.toUnit(raw[k]);
     }
-    const Triple rise = single_cell::visibleRise(single_cell::riseOf(raw), units_.scalarScale);
+    const Triple rise = single_cell::sceneRise(single_cell::riseOf(raw), units_.scalarScale);
     const auto projected = single_cell::projectCell(sorted.forms, reference, s, rise, frame_.orthographic);
 
     std::array<float, sizeof(CellRecord) / sizeof(float)> values;

@@ -89,25 +89,26 @@ TETRALUX_CELL_FUNCTION void coordinatesAt(TETRALUX_CELL_IN(CellForms) forms, TET
 struct ProjectedCell {
     wide plane[4][3];
     wide scalar, scalarPerX, scalarPerY, scalarPerInverseDepth;
-    Triple gradient;  // of the scalar in the space of CameraPoint
+    Triple gradient;  // of the scalar in the space of CameraPoint; of tiny ones the direction only (gradientFactor)
 };
 
 // What corners 1, 2 and 3 have more than corner 0.
 TETRALUX_CELL_FUNCTION Triple riseOf(const wide s[4]) { return Triple(s[1] - s[0], s[2] - s[0], s[3] - s[0]); }
 
 // A rise in the field's own units to scene units. Differences of the field's numbers are exact where they nearly
-// agree; those of scene scalars are not. Which way the scalar rises counts for silhouettes and light however little
-// it does, so a rise below `leastRise` is made as large as that: scalars do not change by it (they are kept within
-// the cell's own), and float holds it. No rise stays none.
-TETRALUX_CELL_FUNCTION Triple visibleRise(TETRALUX_CELL_IN(Triple) rise, wide scalarScale) {
-    wide least = wide(leastRise);
-    wide x = rise.x / scalarScale, y = rise.y / scalarScale, z = rise.z / scalarScale;
-    wide most = max(max(abs(x), abs(y)), abs(z));
-    wide factor = select(most < least, least / max(most, wide(leastDouble)), wide(1.0));
-    return Triple(x * factor, y * factor, z * factor);
+// agree; those of scene scalars are not.
+TETRALUX_CELL_FUNCTION Triple sceneRise(TETRALUX_CELL_IN(Triple) rise, wide scalarScale) {
+    return Triple(rise.x / scalarScale, rise.y / scalarScale, rise.z / scalarScale);
 }
 
-// `rise`: riseOf(s), or what visibleRise has made of the field's own.
+// Which way the scalar rises counts for silhouettes and light however little it does: by this a gradient is made so
+// long that float holds it. No rise stays none.
+TETRALUX_CELL_FUNCTION wide gradientFactor(TETRALUX_CELL_IN(Triple) rise) {
+    wide least = wide(leastRise), most = max(max(abs(rise.x), abs(rise.y)), abs(rise.z));
+    return select(most < least, least / max(most, wide(leastDouble)), wide(1.0));
+}
+
+// `rise`: riseOf(s), or sceneRise of the field's own.
 TETRALUX_CELL_FUNCTION ProjectedCell projectCell(TETRALUX_CELL_IN(CellForms) forms, TETRALUX_CELL_IN(CellReference) reference, const wide s[4],
                                                  TETRALUX_CELL_IN(Triple) rise, bool orthographic) {
     ProjectedCell cell;
@@ -140,5 +141,6 @@ TETRALUX_CELL_FUNCTION ProjectedCell projectCell(TETRALUX_CELL_IN(CellForms) for
     wide alongDepth = orthographic ? cell.gradient.z
                                    : cell.gradient.x * reference.imageX + cell.gradient.y * reference.imageY + cell.gradient.z;
     cell.scalarPerInverseDepth = -inverseDepthToDepth * alongDepth;
+    cell.gradient = gradientFactor(rise) * cell.gradient;
     return cell;
 }

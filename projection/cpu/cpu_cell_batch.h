@@ -154,7 +154,7 @@ HWY_INLINE Triple fieldRise(const TileFrame& frame, const SortedCorners& corners
             DoubleIndexTag(), hn::LoadU(HalfIntTag(), frame.cellData ? &corners.cell[j] : &corners.point[k][j]));
         s[k] = hn::GatherIndex(DoubleTag(), frame.fieldScalars, index);
     }
-    return visibleRise(riseOf(s), wide(frame.scalarScale));
+    return sceneRise(riseOf(s), wide(frame.scalarScale));
 }
 
 /// Lanes j … of the batch: everything but what lies behind the eye.

@@ -75,7 +75,7 @@ void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int
     reference.imageX = 0.5 * (rect.x0 + rect.x1) - frame.centre.x;
     reference.imageY = 0.5 * (rect.y0 + rect.y1) - frame.centre.y;
     coordinatesAt(forms, reference);
-    const auto cell = projectCell(forms, reference, s, visibleRise(riseOf(raw), frame.scalarScale), false);
+    const auto cell = projectCell(forms, reference, s, sceneRise(riseOf(raw), frame.scalarScale), false);
     std::uint32_t fronts = 0;
     for (std::size_t k = 0; k < 4; ++k) {
         fronts |= (forms.eye[k] < 0) != odd ? 1u << k : 0u;  // as the plane's sign was taken, also where it is 0

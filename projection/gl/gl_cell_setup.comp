@@ -59,7 +59,7 @@ void main() {
     }
     CellForms forms = cellForms(v[0], v[1], v[2], v[3], view.orthographic);
     CellReference reference = referenceOfCell(forms, v, view);
-    ProjectedCell projected = projectCell(forms, reference, s, visibleRise(riseOf(raw), scalarScale), view.orthographic);
+    ProjectedCell projected = projectCell(forms, reference, s, sceneRise(riseOf(raw), scalarScale), view.orthographic);
     int frontMask = 0;
     uint record = base + 8;
     for (int i = 0; i < 4; ++i) {

@@ -260,8 +260,7 @@ private:
 
     /// By how much the cell's scalars err on their way to a ray.
     double scalarError(const CellScalars& scalars) const {
-        return scalarRounding * std::max(scalars.high - mesh_.scalarMin, 0.0) +
-               (use_.gradients ? leastRise : leastFloat) * range_;
+        return scalarRounding * std::max(scalars.high - mesh_.scalarMin, 0.0) + leastFloat * range_;
     }
 
     bool missesDepth(mesh::CellIndex cell, const CellScalars& scalars) const {

@@ -21,8 +21,6 @@ struct FloatUse {
     bool fromTable = false;    ///< segments are looked up in a table
     bool silhouettes = false;  ///< depth is divided by |n·d|, and so are its errors
     bool addsUp = false;       ///< light of all segments counts, however much lies before it
-    bool gradients =
-        false;  ///< the gradient's direction is kept: what rises less than leastRise is made to rise so much
     Gathers gathers = Gathers::Light;
 };
 

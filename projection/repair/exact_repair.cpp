@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <projection/cells/cell_setup.h>
-#include <projection/cells/edge_on_planes.h>
 #include <projection/core/wrapped_engine.h>
 #include <projection/reference/reference_ray_caster.h>
 #include <projection/repair/edge_on_faces.h>
@@ -67,7 +66,6 @@ private:
                 .fromTable = fromTable,
                 .silhouettes = settings.shading.silhouette,
                 .addsUp = addsUp(mode),
-                .gradients = settings.shading.needsGradient() || addsUp(mode) || mode == Mode::FirstHit,
                 .gathers = gathersOf(mode)};
     }
 
@@ -124,7 +122,7 @@ private:
         if (!beyondFloat_.empty()) addPixelsOf(beyondFloat_, blockMargin, Doubt::BeyondFloat, frame, pixels);
         if (!report.floatSamples) return pixels;
         frame.sampleShift = *report.floatSamples;
-        if (frame.sampleShift.x > EdgeOnPlanes::barely.x) pixels.add(Doubt::Outline, perturbedPixels(scene_, frame));
+        if (outlines_) pixels.add(Doubt::Outline, perturbedPixels(scene_, frame));
         pixels.add(Doubt::FaceEdgeOn, edgeOnFaces_.pixels(frame, edgeOnFaces_.candidates(frame)));
         return pixels;
     }

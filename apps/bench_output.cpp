@@ -22,9 +22,25 @@ std::vector<BenchSubject> subjectsOf(const std::vector<BenchRow>& rows) {
     return subjects;
 }
 
+std::string placeTitle(const BenchSubject& subject) {
+    return fmt::format("{}  {}x{}", subject.scene, subject.width, subject.height);
+}
+std::string whatTitle(const BenchSubject& subject) {
+    return fmt::format("{}  {}", subject.transferFunction, subject.mode);
+}
 std::string subjectTitle(const BenchSubject& subject) {
-    return fmt::format("{}  {}x{}  {}  {}", subject.scene, subject.width, subject.height, subject.transferFunction,
-                       subject.mode);
+    return placeTitle(subject) + "  " + whatTitle(subject);
+}
+
+/// One row of panels for each scene and size, one column for each transfer function and mode, if a page is wide enough
+/// for them; else as many as it takes, in full rows if that can be.
+int plotColumns(std::size_t functions, std::size_t panels) {
+    constexpr std::size_t most = 4;
+    const std::size_t wanted = functions > 1 ? functions : std::min<std::size_t>(3, panels);
+    if (wanted <= most) return static_cast<int>(std::max<std::size_t>(wanted, 1));
+    for (std::size_t columns = most; columns > 1; --columns)
+        if (wanted % columns == 0) return static_cast<int>(columns);
+    return static_cast<int>(most);
 }
 
 /// "1.9M", "150k"
@@ -256,7 +272,6 @@ json benchJson(const json& machine, const std::vector<BenchRow>& rows) {
 
 Plot benchPlot(const std::vector<BenchRow>& rows) {
     Plot plot;
-    plot.title = "Error against time: lower left is better, the stairs are the Pareto front";
     plot.xLabel = "ms a frame, camera moved";
     plot.yLabel = "rmse against the reference";
     std::vector<BenchRow> shown;
@@ -265,11 +280,19 @@ Plot benchPlot(const std::vector<BenchRow>& rows) {
     for (const BenchRow& row : shown)
         if (std::find(plot.series.begin(), plot.series.end(), row.engine) == plot.series.end())
             plot.series.push_back(row.engine);
-    std::set<std::string> functions;
-    for (const BenchSubject& subject : subjectsOf(shown)) {
-        functions.insert(subject.transferFunction + subject.mode);
+    const std::vector<BenchSubject> subjects = subjectsOf(shown);
+    std::set<std::string> places, functions;
+    for (const BenchSubject& subject : subjects) {
+        places.insert(placeTitle(subject));
+        functions.insert(whatTitle(subject));
+    }
+    // what all panels share stands above them, once
+    const bool onePlace = places.size() == 1;
+    plot.title = fmt::format("{}Error against time: lower left is better, the stairs are the Pareto front",
+                             onePlace ? *places.begin() + ".  " : "");
+    for (const BenchSubject& subject : subjects) {
         PlotPanel& panel = plot.panels.emplace_back();
-        panel.title = subjectTitle(subject);
+        panel.title = onePlace ? whatTitle(subject) : subjectTitle(subject);
         for (const BenchRow& row : shown) {
             if (row.subject != subject) continue;
             const auto series = std::find(plot.series.begin(), plot.series.end(), row.engine) - plot.series.begin();
@@ -277,9 +300,7 @@ Plot benchPlot(const std::vector<BenchRow>& rows) {
                 {row.medianMilliseconds(), row.error.rmse, static_cast<int>(series), row.onFront, pointNote(row)});
         }
     }
-    // One row for each scene and size, one column for each transfer function and mode, when all were measured.
-    plot.columns = std::max(1, static_cast<int>(functions.size()));
-    if (plot.columns == 1) plot.columns = std::min(3, static_cast<int>(plot.panels.size()));
+    plot.columns = plotColumns(functions.size(), plot.panels.size());
     return plot;
 }
 

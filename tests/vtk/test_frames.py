@@ -6,7 +6,9 @@ import unittest
 
 import numpy as np
 import scenes
-from scenes import Scene, box_grid, grid_of, tetrahedra, wave
+from grids import box_grid, grid_of, tetrahedra, wave
+from scenes import Scene
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkObject
 from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 from vtkmodules.vtkCommonTransforms import vtkTransform
@@ -154,7 +156,7 @@ class Frames(unittest.TestCase):
                 scene = Scene(grid_of(points, cells if fault != "cells" else cells[:1], point_data=data))
                 if fault == "cells":
                     scene.mapper.SetInputData(vtkUnstructuredGrid())
-                    scene.mapper.GetInput().GetPointData().SetScalars(scenes.numpy_to_vtk(np.ones(1), deep=1))
+                    scene.mapper.GetInput().GetPointData().SetScalars(numpy_to_vtk(np.ones(1), deep=1))
                 if fault == "engine":
                     scene.mapper.SetEngine("steam")
                 if fault == "components":

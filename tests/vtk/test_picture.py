@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The float picture of vtkTetraluxMapper is that of `tetralux render` of the same scene."""
+import json
 import unittest
 
 import numpy as np
 import scenes
-from scenes import HEXAHEDRON, PYRAMID, WEDGE, Scene, box_grid, grid_of, lattice, tetrahedra, wave
+from grids import FOLDER, HEXAHEDRON, OPACITIES, PYRAMID, WEDGE, box_grid, grid_of, lattice, program_picture, tetrahedra, wave
+from scenes import Scene
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction, vtkPlane
 from vtkmodules.vtkCommonMath import vtkMatrix4x4
@@ -145,7 +147,7 @@ class Pictures(unittest.TestCase):
         scene.volume.SetUserMatrix(matrix)
         moved = grid_of(points @ linear.T + [0, 0.1, 0.2], cells, point_data={"w": wave(points)})
         scene.renderer.ResetCameraClippingRange()
-        self.check(scene, expected=scenes.program_picture(moved, scene.camera, scene.size))
+        self.check(scene, expected=program_picture(moved, scene.camera, scene.size))
 
     def test_ghosts(self):
         points, cells = tetrahedra(5)
@@ -159,7 +161,7 @@ class Pictures(unittest.TestCase):
         grid.GetCellData().AddArray(ghosts)
         rest = grid_of(points, cells[(marks & 33) == 0], point_data={"w": wave(points)})
         scene = Scene(grid)
-        self.check(scene, expected=scenes.program_picture(rest, scene.camera, scene.size))
+        self.check(scene, expected=program_picture(rest, scene.camera, scene.size))
         self.assertEqual(scene.mapper.GetCellsDrawn(), np.count_nonzero((marks & 33) == 0))
 
     def test_own_properties(self):
@@ -183,13 +185,13 @@ class Pictures(unittest.TestCase):
         scene.mapper.ScaleInvariantOn()
         values = wave(tetrahedra(5)[0])
         share = (values.max() - values.min()) / np.sqrt(12)
-        nodes = [[s, tau / share] for s, tau in scenes.OPACITIES]
+        nodes = [[s, tau / share] for s, tau in OPACITIES]
         self.check(scene, "--mode", "scale-invariant", extinction=nodes)
 
     def test_unit_distance(self):
         scene = Scene(box_grid(5))
         scene.property.SetScalarOpacityUnitDistance(0.25)
-        self.check(scene, extinction=[[s, 4 * o] for s, o in scenes.OPACITIES])
+        self.check(scene, extinction=[[s, 4 * o] for s, o in OPACITIES])
         alphas = [[0, 0], [0.4, 0.1], [1, 0.7]]
         scene.opacities.RemoveAllPoints()
         for node in alphas:
@@ -250,9 +252,9 @@ class Pictures(unittest.TestCase):
             scene.renderer.AddLight(light)
             at = {"type": "point", "position": position} if positional else {"type": "directional", "towards": position}
             lights.append({**at, "color": [1, 0.9, 0.8], "intensity": 0.8})
-        file = scenes.FOLDER / "light.json"
+        file = FOLDER / "light.json"
         file.write_text(
-            scenes.json.dumps(
+            json.dumps(
                 {
                     "ambient": 0.2,
                     "exponent": 8,

@@ -5,7 +5,8 @@ import unittest
 
 import numpy as np
 import scenes
-from scenes import Scene, box_grid
+from grids import box_grid, program_picture
+from scenes import Scene
 from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
@@ -115,7 +116,7 @@ class Windows(unittest.TestCase):
         drawn = scene.picture()
         scene.camera.SetWindowCenter(0, 0)
         scene.camera.SetViewAngle(2 * math.degrees(math.atan(2 * math.tan(math.radians(7)))))
-        larger = scenes.program_picture(scene.grid, scene.camera, (320, 240))
+        larger = program_picture(scene.grid, scene.camera, (320, 240))
         part = larger[60 + 15 : 180 + 15, 80 + 40 : 240 + 40]
         self.assertGreater(part[..., 3].max(), 0.1)
         self.assertLess(np.abs(drawn - part).max(), 1e-5)  # pixels of another camera
@@ -180,7 +181,7 @@ class Windows(unittest.TestCase):
         other.SetBackground(1, 0, 0)
         scene.window.AddRenderer(other)
         shown = scene.shown()
-        expected = scenes.program_picture(scene.grid, scene.camera, (150, 120))
+        expected = program_picture(scene.grid, scene.camera, (150, 120))
         self.assertLess(np.abs(shown[:, :150] - 255 * expected[..., :3]).max(), 1)
         self.assertTrue((shown[:, 150:] == [255, 0, 0]).all())
 
@@ -194,7 +195,7 @@ class Windows(unittest.TestCase):
         grabber.Update()
         image = grabber.GetOutput()
         values = scenes.vtk_to_numpy(image.GetPointData().GetScalars()).reshape(240, 300, -1)[::-1, :, :3]
-        expected = scenes.program_picture(scene.grid, scene.camera, (300, 240))
+        expected = program_picture(scene.grid, scene.camera, (300, 240))
         self.assertLess(np.abs(values - 255 * expected[..., :3]).max(), 1.01)
 
     def test_multisampling_and_resizing(self):

@@ -12,6 +12,7 @@
 
 #include "vtkColorTransferFunction.h"
 #include "vtkContourValues.h"
+#include "vtkDiscretizableColorTransferFunction.h"
 #include "vtkLight.h"
 #include "vtkLightCollection.h"
 #include "vtkPiecewiseFunction.h"
@@ -105,14 +106,27 @@ bool midpointIsPlain(double midpoint, double sharpness) {
     return midpoint == 0.5 && sharpness == 0;
 }
 
+/// ParaView's functions are tables of 256 colours unless somebody wants fewer, which are steps to be seen.
+bool inSteps(vtkColorTransferFunction& function) {
+    constexpr vtkIdType smooth = 128;
+    auto* discretizable = vtkDiscretizableColorTransferFunction::SafeDownCast(&function);
+    return discretizable != nullptr && discretizable->GetDiscretize() && discretizable->GetNumberOfValues() < smooth;
+}
+
+Value colorAt(vtkColorTransferFunction& function, double scalar) {
+    Value color;
+    if (inSteps(function))
+        function.GetColor(scalar, color.data());
+    else
+        function.vtkColorTransferFunction::GetColor(scalar, color.data());
+    return color;
+}
+
 std::vector<Node> colorNodes(vtkColorTransferFunction& function) {
     Sampled sampled;
-    sampled.at = [&](double scalar) {
-        Value color;
-        function.GetColor(scalar, color.data());
-        return color;
-    };
-    const bool rgb = function.GetColorSpace() == VTK_CTF_RGB && function.GetScale() == VTK_CTF_LINEAR;
+    sampled.at = [&](double scalar) { return colorAt(function, scalar); };
+    const bool rgb =
+        function.GetColorSpace() == VTK_CTF_RGB && function.GetScale() == VTK_CTF_LINEAR && !inSteps(function);
     for (int i = 0; i < function.GetSize(); ++i) {
         double node[6];
         function.GetNodeValue(i, node);
@@ -184,12 +198,12 @@ std::string listOf(const std::vector<Node>& nodes, const Text& text) {
     return list + "]";
 }
 
-std::string isosurfaceList(vtkVolumeProperty& property, const std::function<Value(double)>& colorAt) {
+std::string isosurfaceList(vtkVolumeProperty& property, const std::function<Value(double)>& colorOf) {
     vtkContourValues* values = property.GetIsoSurfaceValues();
     std::string list = "[";
     for (int i = 0; i < values->GetNumberOfContours(); ++i) {
         const double value = values->GetValue(i);
-        const Value color = colorAt(value);
+        const Value color = colorOf(value);
         list += std::string(i > 0 ? "," : "") + R"({"value":)" + number(value) + R"(,"opacity":)" +
                 number(fraction(property.GetScalarOpacity(0)->GetValue(value))) + R"(,"color":)" +
                 colorText(color.data()) + "}";
@@ -218,25 +232,21 @@ std::string lightText(vtkLight& light) {
 
 std::string functionText(vtkVolumeProperty& property, const OpacityUse& use) {
     std::vector<Node> colors;
-    std::function<Value(double)> colorAt;
+    std::function<Value(double)> colorOf;
     if (property.GetColorChannels(0) == 1) {
         vtkPiecewiseFunction* gray = property.GetGrayTransferFunction(0);
         colors = scalarNodes(*gray, "the gray function");
-        colorAt = [gray](double s) { return Value{gray->GetValue(s), gray->GetValue(s), gray->GetValue(s)}; };
+        colorOf = [gray](double s) { return Value{gray->GetValue(s), gray->GetValue(s), gray->GetValue(s)}; };
     } else {
         vtkColorTransferFunction* rgb = property.GetRGBTransferFunction(0);
         colors = colorNodes(*rgb);
-        colorAt = [rgb](double s) {
-            Value color;
-            rgb->GetColor(s, color.data());
-            return color;
-        };
+        colorOf = [rgb](double s) { return colorAt(*rgb, s); };
     }
     std::string text =
         R"({"normalized":false,"color":)" + listOf(colors, [](const Node& node) {
             return numbers({node.scalar, fraction(node.value[0]), fraction(node.value[1]), fraction(node.value[2])});
         });
-    if (use.isosurfaces) return text + R"(,"isosurfaces":)" + isosurfaceList(property, colorAt) + "}";
+    if (use.isosurfaces) return text + R"(,"isosurfaces":)" + isosurfaceList(property, colorOf) + "}";
     const double unit = property.GetScalarOpacityUnitDistance(0) * use.unitFactor;
     if (!(unit > 0))
         throw Error(Errc::BadInput, "the volume's property has no unit distance of opacity; set one above 0");

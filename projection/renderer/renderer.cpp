@@ -67,8 +67,19 @@ bool holdsSomething(const ClipBox& box) {
     return box.low[0] < box.high[0] && box.low[1] < box.high[1] && box.low[2] < box.high[2];
 }
 
-/// What the caller limits in this frame alone.
-std::optional<projection::PixelMaps> limitsOf(const Control& control, const projection::Camera& camera) {
+void checkDepthLimit(const float* limits, const projection::Camera& camera) {
+    const auto width = static_cast<std::size_t>(camera.width), height = static_cast<std::size_t>(camera.height);
+    for (std::size_t pixel = 0; pixel < width * height; ++pixel)
+        if (std::isnan(limits[pixel]))
+            throw Error(Errc::BadInput,
+                        fmt::format("depth limit: pixel {},{} is NaN; give infinity where nothing stands",
+                                    pixel % width, pixel / width));
+}
+
+/// What the caller limits in this frame alone, for `camera`, whose picture may be smaller than that which is `wanted`:
+/// each of its pixels ends where the wanted one in its middle does.
+std::optional<projection::PixelMaps> limitsOf(const Control& control, const projection::Camera& camera,
+                                              const projection::Camera& wanted) {
     if (control.depthLimit == nullptr && !holdsSomething(control.region)) return std::nullopt;
     projection::PixelMaps maps;
     if (holdsSomething(control.region)) {
@@ -78,16 +89,14 @@ std::optional<projection::PixelMaps> limitsOf(const Control& control, const proj
         maps.cutLayerEnd.clear();  // a part of space is no cut: what lies at its border is lit as anywhere
         maps.cutNormal.clear();
     }
-    if (control.depthLimit != nullptr) {
-        const auto pixels = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
-        for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-            const float limit = control.depthLimit[pixel];
-            if (std::isnan(limit))
-                throw Error(Errc::BadInput,
-                            fmt::format("depth limit: pixel {},{} is NaN; give infinity where nothing stands",
-                                        pixel % static_cast<std::size_t>(camera.width),
-                                        pixel / static_cast<std::size_t>(camera.width)));
-            projection::cutFarther(camera, maps, pixel, std::max(0.0, static_cast<double>(limit)));
+    if (control.depthLimit == nullptr) return maps;
+    for (int y = 0; y < camera.height; ++y) {
+        const auto row = static_cast<std::size_t>((2 * y + 1) * wanted.height / (2 * camera.height));
+        for (int x = 0; x < camera.width; ++x) {
+            const auto column = static_cast<std::size_t>((2 * x + 1) * wanted.width / (2 * camera.width));
+            const float limit = control.depthLimit[row * static_cast<std::size_t>(wanted.width) + column];
+            projection::cutFarther(camera, maps, static_cast<std::size_t>(y * camera.width + x),
+                                   std::max(0.0, static_cast<double>(limit)));
         }
     }
     return maps;
@@ -173,7 +182,9 @@ struct Renderer::State {
     void make();
     void makeField();
     void makeAppearance();
-    projection::Image draw(const projection::View& view, projection::FrameReport& report, double budget);
+    projection::Camera withinBudget(const projection::Camera& view, double budget) const;
+    projection::Image draw(const projection::Camera& view, const Control& control,
+                           const projection::FrameControl& waiting, projection::FrameReport& report);
     PixelProbe probe(const projection::Camera& view, int x, int y);
 };
 
@@ -228,24 +239,32 @@ void Renderer::State::makeAppearance() {
     made = Tier::Appearance;
 }
 
-/// The whole picture; within a budget fewer pixels of it, enlarged.
-projection::Image Renderer::State::draw(const projection::View& view, projection::FrameReport& report, double budget) {
+/// The camera of a smaller picture, where the whole would take longer than the budget. 0: no budget.
+projection::Camera Renderer::State::withinBudget(const projection::Camera& view, double budget) const {
     constexpr double share = 0.8;  // of the budget: frames differ
-    projection::Camera smaller = view.camera;
-    const double pixels = static_cast<double>(smaller.width) * smaller.height;
-    // a part of a picture and limits per pixel have the size that they have
-    if (budget > 0 && view.maps == nullptr && smaller.whole == glm::ivec2(0)) {
+    projection::Camera smaller = view;
+    const double pixels = static_cast<double>(view.width) * view.height;
+    if (budget > 0 && view.whole == glm::ivec2(0)) {  // a part of a picture has the size that it has
         const double side = std::sqrt(cost.pixelsWithin(share * budget, pixels) / pixels);
-        smaller.width = std::clamp(static_cast<int>(smaller.width * side), 1, smaller.width);
-        smaller.height = std::clamp(static_cast<int>(smaller.height * side), 1, smaller.height);
+        smaller.width = std::clamp(static_cast<int>(view.width * side), 1, view.width);
+        smaller.height = std::clamp(static_cast<int>(view.height * side), 1, view.height);
     }
+    return smaller;
+}
+
+/// The whole picture; within a budget fewer pixels of it, enlarged.
+projection::Image Renderer::State::draw(const projection::Camera& view, const Control& control,
+                                        const projection::FrameControl& waiting, projection::FrameReport& report) {
+    const projection::Camera drawn = withinBudget(view, control.budgetMilliseconds);
+    const auto limits = limitsOf(control, drawn, view);
     const auto start = Clock::now();
-    projection::Image image = engine->render({smaller, view.maps, view.control}, report);
-    cost.add(static_cast<double>(smaller.width) * smaller.height, millisecondsSince(start));
-    report.drawnWidth = smaller.width;
-    report.drawnHeight = smaller.height;
-    if (smaller.width == view.camera.width && smaller.height == view.camera.height) return image;
-    return projection::resized(image, view.camera.width, view.camera.height);
+    projection::Image image = engine->render({drawn, limits ? &*limits : nullptr, &waiting}, report);
+    cost.add(static_cast<double>(drawn.width) * drawn.height, millisecondsSince(start));
+    maps = report.maps ? report.maps : limits ? std::make_shared<const projection::PixelMaps>(*limits) : nullptr;
+    report.drawnWidth = drawn.width;
+    report.drawnHeight = drawn.height;
+    if (drawn.width == view.width && drawn.height == view.height) return image;
+    return projection::resized(image, view.width, view.height);
 }
 
 PixelProbe Renderer::State::probe(const projection::Camera& view, int x, int y) {
@@ -376,14 +395,11 @@ FrameResult Renderer::render(const Camera& camera, ImageView image, const Contro
             state.run([&] {
                 waiting.check();
                 projection::cameraFrame(view);  // refuses now rather than after preparing
+                if (control.depthLimit != nullptr) checkDepthLimit(control.depthLimit, view);
                 if (state.made < State::Tier::Appearance) state.cost.forget();
                 state.make();
                 waiting.check();
-                const auto limits = limitsOf(control, view);
-                picture = state.draw({view, limits ? &*limits : nullptr, &waiting}, report, control.budgetMilliseconds);
-                state.maps = report.maps ? report.maps
-                             : limits    ? std::make_shared<const projection::PixelMaps>(*limits)
-                                         : nullptr;
+                picture = state.draw(view, control, waiting, report);
                 state.camera = view;
                 if (projection::isEmpty(*picture))
                     result.emptyBecause = projection::whyEmpty(state.scene, state.parts, view);

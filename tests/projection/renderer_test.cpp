@@ -273,6 +273,28 @@ TEST(Renderer, ABudgetMakesCoarserPictures) {
     EXPECT_EQ(largestDifference(exact, picture), 0.0);
 }
 
+TEST(Renderer, ABudgetKeepsToTheDepthLimit) {
+    Renderer renderer = rendererOf(bucky(16));
+    Picture picture(200, 150);
+    std::vector<float> limit(200 * 150, 0.0f);
+    for (std::size_t i = 0; i < limit.size(); ++i)
+        if (i % 200 >= 100) limit[i] = std::numeric_limits<float>::infinity();
+    Control control;
+    control.budgetMilliseconds = 1e-3;
+    control.depthLimit = limit.data();
+    const FrameResult coarse = renderer.render(corner, picture.view(), control);
+    EXPECT_LT(coarse.drawnWidth, 200);
+    double left = 0, right = 0;
+    for (int y = 0; y < 150; ++y)
+        for (int x = 0; x < 200; ++x) {
+            const double alpha = picture.at(x, y)[3];
+            if (x < 70) left += alpha;  // a pixel of the coarse picture is some 25 wide
+            if (x >= 130) right += alpha;
+        }
+    EXPECT_EQ(left, 0.0);
+    EXPECT_GT(right, 1.0);
+}
+
 TEST(Renderer, SamplesAreTheMeanOfALargerPicture) {
     Renderer renderer = rendererOf(bucky(12));
     Picture larger(80, 60), averaged(40, 30);

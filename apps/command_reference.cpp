@@ -106,10 +106,11 @@ void describeMeshes(PageWriter& page) {
     page.heading("Meshes");
     page.paragraph(
         "A mesh is a file (`.vtu .pvtu .pvd .vtk .vti .vtkhdf`, Exodus, CGNS, EnSight, OpenFOAM, AVS UCD, ANSYS "
-        "Fluent, "
-        "Gmsh, MEDIT, TetGen, image volumes such as NRRD and MetaImage) or a generated field: `bucky:N`, `coulomb:N`, "
-        "`marschner-lobb:N`, `hydrogen:N`, with N points along each edge. Every solid cell type is made tetrahedra; "
-        "what is wrong with a mesh is counted by name and left out or mended, and the rest is drawn.");
+        "Fluent, Gmsh, MEDIT, TetGen, image volumes such as NRRD and MetaImage; any of them packed as `.gz`; where "
+        "Python has meshio all that it knows, such as XDMF, Nastran, Abaqus, SU2, FLAC3D, Kratos and MED), `-` for "
+        "standard input, or a generated field: `bucky:N`, `coulomb:N`, `marschner-lobb:N`, `hydrogen:N`, with N points "
+        "along each edge. Every solid cell type is made tetrahedra; what is wrong with a mesh is counted by name and "
+        "left out or mended, and the rest is drawn.");
 }
 
 void describeFiles(PageWriter& page) {

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
+#include <apps/bash_completion.h>
 #include <apps/page_writer.h>
 
 namespace tetralux::apps {
@@ -150,13 +151,14 @@ void describeOutcome(PageWriter& page) {
 }  // namespace
 
 std::string commandReference(const CLI::App& program, const std::string& format) {
+    if (format == "bash") return bashCompletion(program);
     std::unique_ptr<PageWriter> page;
     if (format == "markdown")
         page = std::make_unique<MarkdownWriter>();
     else if (format == "man")
         page = std::make_unique<ManWriter>();
     else
-        throw std::runtime_error(fmt::format("--reference: there is no '{}'; take markdown or man", format));
+        throw std::runtime_error(fmt::format("--reference: there is no '{}'; take markdown, man or bash", format));
     const auto commands = program.get_subcommands([](const CLI::App*) { return true; });
 
     page->title("tetralux", "pictures of scalar fields on unstructured meshes, exact and fast", TETRALUX_VERSION);

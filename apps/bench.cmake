@@ -17,7 +17,6 @@ add_library(tetralux_bench STATIC
   bench_statistics.cpp
   bench_vtk_rows.cpp
   option_values.cpp
-  run_program.cpp
 )
 target_compile_definitions(tetralux_bench PRIVATE TETRALUX_VERSION="${PROJECT_VERSION}")
 target_link_libraries(tetralux_bench PUBLIC tetralux_plot tetralux_projection tetralux_io nlohmann_json::nlohmann_json PRIVATE fmt::fmt TBB::tbb)

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <apps/bench_scene.h>
-#include <apps/run_program.h>
+#include <mesh/io/run_program.h>
 #include <projection/core/transfer_support.h>
 
 namespace tetralux::apps {
@@ -202,7 +202,7 @@ BenchRow VtkBench::measure(const projection::Scene& scene, const std::string& ma
     std::ofstream(folder_.file("request")) << request.dump();
     try {
         fs::remove(folder_.file("result"));
-        runProgram(commandLine(program_, folder_.file("request")), folder_.file("output").string());
+        mesh::runProgram(commandLine(program_, folder_.file("request")), folder_.file("output").string());
         const json result = json::parse(std::ifstream(folder_.file("result")));
         readResult(result, row);
         for (int image = 0; image < result.at("images").get<int>(); ++image) {

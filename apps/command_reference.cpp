@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
+#include <apps/bash_completion.h>
 #include <apps/page_writer.h>
 
 namespace tetralux::apps {
@@ -106,10 +107,11 @@ void describeMeshes(PageWriter& page) {
     page.heading("Meshes");
     page.paragraph(
         "A mesh is a file (`.vtu .pvtu .pvd .vtk .vti .vtkhdf`, Exodus, CGNS, EnSight, OpenFOAM, AVS UCD, ANSYS "
-        "Fluent, "
-        "Gmsh, MEDIT, TetGen, image volumes such as NRRD and MetaImage) or a generated field: `bucky:N`, `coulomb:N`, "
-        "`marschner-lobb:N`, `hydrogen:N`, with N points along each edge. Every solid cell type is made tetrahedra; "
-        "what is wrong with a mesh is counted by name and left out or mended, and the rest is drawn.");
+        "Fluent, Gmsh, MEDIT, TetGen, image volumes such as NRRD and MetaImage; any of them packed as `.gz`; where "
+        "Python has meshio all that it knows, such as XDMF, Nastran, Abaqus, SU2, FLAC3D, Kratos and MED), `-` for "
+        "standard input, or a generated field: `bucky:N`, `coulomb:N`, `marschner-lobb:N`, `hydrogen:N`, with N points "
+        "along each edge. Every solid cell type is made tetrahedra; what is wrong with a mesh is counted by name and "
+        "left out or mended, and the rest is drawn.");
 }
 
 void describeFiles(PageWriter& page) {
@@ -149,13 +151,14 @@ void describeOutcome(PageWriter& page) {
 }  // namespace
 
 std::string commandReference(const CLI::App& program, const std::string& format) {
+    if (format == "bash") return bashCompletion(program);
     std::unique_ptr<PageWriter> page;
     if (format == "markdown")
         page = std::make_unique<MarkdownWriter>();
     else if (format == "man")
         page = std::make_unique<ManWriter>();
     else
-        throw std::runtime_error(fmt::format("--reference: there is no '{}'; take markdown or man", format));
+        throw std::runtime_error(fmt::format("--reference: there is no '{}'; take markdown, man or bash", format));
     const auto commands = program.get_subcommands([](const CLI::App*) { return true; });
 
     page->title("tetralux", "pictures of scalar fields on unstructured meshes, exact and fast", TETRALUX_VERSION);

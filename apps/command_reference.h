@@ -12,7 +12,7 @@ class App;
 
 namespace tetralux::apps {
 
-/// `format`: "markdown" or "man". \throws std::runtime_error for any other.
+/// `format`: "markdown", "man", or "bash" for its completion. \throws std::runtime_error for any other.
 std::string commandReference(const CLI::App& program, const std::string& format);
 
 }  // namespace tetralux::apps

@@ -66,7 +66,7 @@ int run(int argumentCount, char** arguments) {
                 fmt::print("{}", tetralux::apps::commandReference(program, format));
                 throw CLI::Success();
             },
-            "this program's reference page: markdown or man")
+            "this program's reference page: markdown or man; bash: its completion")
         ->group("");  // for the pages, not for users: in no help
     if (const std::string word = unknownCommand(program, argumentCount, arguments); !word.empty())
         return complain(fmt::format("there is no command '{}'; take one of {}", word, commandNames(program)));

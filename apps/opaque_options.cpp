@@ -98,6 +98,10 @@ void addOpaqueOptions(CLI::App& command, OpaqueOptions& options) {
     addRepeated(
         command, "--surface-color", "r,g,b", "colour of the surfaces, 0.8,0.8,0.8; one for all or one for each",
         [&options](const std::string& text) { options.surfaceColors.push_back(parseColor("--surface-color", text)); });
+    addRepeated(
+        command, "--surface-scalar", "NAME",
+        "surfaces in the colours of this field of their own file; one for all or one for each (none: not that one)",
+        [&options](const std::string& text) { options.surfaceFields.push_back(text); });
     command.add_flag("--surface-flat", options.flat, "surfaces and the boundary in their colour, without light");
     addBoundaryOptions(command, options);
 }
@@ -107,6 +111,10 @@ projection::OpaqueObjects readOpaqueObjects(const OpaqueOptions& options) {
     if (colors > 1 && colors != surfaces)
         throw std::runtime_error(
             fmt::format("--surface-color: {} colours for {} surfaces; give one, or one for each", colors, surfaces));
+    const std::size_t fields = options.surfaceFields.size();
+    if (fields > 0 && fields != surfaces && (fields > 1 || surfaces == 0))
+        throw std::runtime_error(
+            fmt::format("--surface-scalar: {} for {} surfaces; give one, or one for each --surface", fields, surfaces));
     const std::size_t opacities = options.sliceOpacities.size(), slices = options.slices.size();
     if (opacities > 0 && opacities != slices && (opacities > 1 || slices == 0))
         throw std::runtime_error(
@@ -121,7 +129,10 @@ projection::OpaqueObjects readOpaqueObjects(const OpaqueOptions& options) {
         objects.slices[i].opacity = options.sliceOpacities[opacities > 1 ? i : 0];
     for (std::size_t i = 0; i < surfaces; ++i) {
         projection::OpaqueSurface surface;
-        surface.mesh = std::make_shared<const mesh::SurfaceMesh>(mesh::readSurface(options.surfaces[i], true));
+        const std::string field = fields > 0 ? options.surfaceFields[fields > 1 ? i : 0] : "none";
+        surface.byField = field != "none";
+        surface.mesh = std::make_shared<const mesh::SurfaceMesh>(
+            mesh::readSurface(options.surfaces[i], true, surface.byField ? field : ""));
         if (colors > 0) surface.color = options.surfaceColors[colors > 1 ? i : 0];
         surface.flat = options.flat;
         objects.surfaces.push_back(std::move(surface));

@@ -20,13 +20,14 @@ namespace tetralux::apps {
 
 struct OpaqueOptions {
     std::vector<projection::Slice> slices;
-    std::vector<double> sliceOpacities;     ///< none, one for all, or one for each
-    std::optional<int> isolines;            ///< so many on each slice
-    projection::Isolines lines;             ///< how they look
-    std::vector<std::string> surfaces;      ///< files
-    std::vector<glm::dvec3> surfaceColors;  ///< none, one for all, or one for each
-    bool flat = false;                      ///< surfaces without light
-    bool boundary = false;                  ///< the mesh's own boundary
+    std::vector<double> sliceOpacities;      ///< none, one for all, or one for each
+    std::optional<int> isolines;             ///< so many on each slice
+    projection::Isolines lines;              ///< how they look
+    std::vector<std::string> surfaces;       ///< files
+    std::vector<glm::dvec3> surfaceColors;   ///< none, one for all, or one for each
+    std::vector<std::string> surfaceFields;  ///< of their own, as the colours; the same, "none": of that surface not
+    bool flat = false;                       ///< surfaces without light
+    bool boundary = false;                   ///< the mesh's own boundary
     projection::BoundaryLook boundaryLook;
 };
 

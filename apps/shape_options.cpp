@@ -183,7 +183,9 @@ void addShapeOptions(CLI::App& command, ShapeOptions& options, projection::Rende
                       "extinction times so many times the gradient's magnitude (ranges per diagonal)");
     addNumber<int>(
         command, "--isosurfaces", options.isosurfaces, [](double value) { return value >= 1.0 && value <= 1024.0; },
-        "a whole number from 1 to 1024", "so many equidistant isosurfaces instead of extinction");
+        "a whole number from 1 to 1024",
+        "so many equidistant isosurfaces instead of extinction, lit by a head light if no other is given");
+    command.add_flag("--unlit", options.unlit, "--isosurfaces in their colour alone, without light");
     command
         .add_option_function<std::string>(
             "--depth-color",
@@ -193,6 +195,24 @@ void addShapeOptions(CLI::App& command, ShapeOptions& options, projection::Rende
     addAdaptiveOptions(command, options);
 }
 
+namespace {
+
+/// Shapes are seen by their light: what --isosurfaces draws has some unless it is asked not to.
+void lightIsosurfaces(const ShapeOptions& options, Mode mode, std::vector<shading::Light>& lights) {
+    if (options.unlit && !options.isosurfaces)
+        throw std::runtime_error(
+            "--unlit: without --isosurfaces there is light only where it is asked for; leave it out");
+    if (options.unlit && !lights.empty())
+        throw std::runtime_error("--unlit: a light is given too; leave one of them out");
+    const bool shades = mode == Mode::Standard || mode == Mode::ScaleInvariant || mode == Mode::FirstHit;
+    if (!options.isosurfaces || options.unlit || !lights.empty() || !shades) return;
+    shading::Light light;
+    light.kind = shading::Light::Kind::Head;
+    lights.push_back(light);
+}
+
+}  // namespace
+
 void finishShapeOptions(const ShapeOptions& options, projection::RenderSettings& settings) {
     if (!options.silhouette.empty()) {
         settings.shading.silhouette = true;
@@ -201,6 +221,7 @@ void finishShapeOptions(const ShapeOptions& options, projection::RenderSettings&
                    std::array{Named<bool>{"exact", false}, Named<bool>{"approximate", true}});
     }
     const Mode mode = settings.mode;
+    lightIsosurfaces(options, mode, settings.shading.lights);
     const bool integrates = mode == Mode::Standard || mode == Mode::ScaleInvariant;
     if (settings.shading.depthColor && !integrates && !projection::addsUp(mode) && mode != Mode::FirstHit)
         throw std::runtime_error(

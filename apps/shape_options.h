@@ -22,6 +22,7 @@ struct ShapeOptions {
     std::optional<double> cutLayer;  ///< mesh units; nothing: projection::cutLayerShare
     std::string silhouette;          ///< "", "exact" or "approximate"
     std::optional<int> isosurfaces;  ///< so many instead of extinction
+    bool unlit = false;              ///< those in their colour alone
     projection::AdaptiveSettings adaptive;
     bool adaptiveOn = false;
 };

@@ -38,7 +38,7 @@ def kraus(draw, volumes):
     draw("kraus-2b", coulomb, surfaces, eye + scale + SMOOTH + lamp)
     veil, whole = constant(0.22, (0.95, 0.8, 0.55)), ["--eye", "0.5,0.5,3.2", "--fov", "27"] + scale
     draw("kraus-3a", coulomb, veil, whole)
-    draw("kraus-3b", coulomb, veil, whole + ["--isosurfaces", "24"])
+    draw("kraus-3b", coulomb, veil, whole + ["--isosurfaces", "24", "--unlit"])
     draw("kraus-5a", coulomb, surfaces, eye + scale + ["--silhouette"])
     draw("kraus-5b", coulomb, surfaces, eye + scale + ["--silhouette=approximate"])
 

@@ -39,5 +39,8 @@ extern const MeshFormat rawFormat;
 extern const MeshFormat gmshFormat;
 extern const MeshFormat meditFormat;
 extern const MeshFormat tetgenFormat;
+extern const MeshFormat gzipFormat;
+extern const MeshFormat meshioFormat;
+extern const MeshFormat standardInputFormat;
 
 }  // namespace tetralux::mesh

@@ -17,9 +17,9 @@ namespace {
 
 // One line per format; the first that accepts a source reads it.
 const std::array formats{
-    &vtkXmlFormat, &legacyVtkFormat, &vtkHdfFormat,   &listingFormat, &exodusFormat,
-    &cgnsFormat,   &ensightFormat,   &openFoamFormat, &ucdFormat,     &fluentFormat,
-    &imageFormat,  &rawFormat,       &gmshFormat,     &meditFormat,   &tetgenFormat,
+    &vtkXmlFormat,  &legacyVtkFormat, &vtkHdfFormat, &listingFormat, &exodusFormat, &cgnsFormat,
+    &ensightFormat, &openFoamFormat,  &ucdFormat,    &fluentFormat,  &imageFormat,  &rawFormat,
+    &gmshFormat,    &meditFormat,     &tetgenFormat, &gzipFormat,    &meshioFormat, &standardInputFormat,
 };
 
 struct OtherKind {
@@ -39,9 +39,9 @@ const std::array otherKinds{
               "mesh`"},
     OtherKind{{".sol"}, "holds the values of a MEDIT mesh; give the .mesh beside it"},
     OtherKind{{".face", ".edge", ".neigh", ".poly", ".smesh"}, "is no mesh by itself; give TetGen's .ele or .node"},
-    OtherKind{{".hdf", ".hdf5", ".h5", ".xdmf", ".xmf"},
-              "is HDF5 of a kind that is not read; save it as .vtu in ParaView"},
-    OtherKind{{".med", ".unv", ".bdf", ".nas"}, "is not read; convert it to Gmsh's .msh or to .vtu (Gmsh, meshio)"},
+    OtherKind{{".hdf", ".hdf5", ".h5"},
+              "is HDF5 of a kind that is not read; give the .xdmf beside it, or save it as .vtu in ParaView"},
+    OtherKind{{".unv"}, "is not read; convert it to Gmsh's .msh or to .vtu (Gmsh)"},
     OtherKind{{".plt", ".szplt", ".tec", ".k", ".d3plot", ".rst", ".odb", ".post", ".fsdb"},
               "is not read; save it as .vtu, CGNS or Exodus in the program that wrote it or in ParaView"},
     OtherKind{{".png", ".jpg", ".tif", ".tiff", ".dcm", ".nii", ".nii.gz"},

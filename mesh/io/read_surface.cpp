@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <mesh/io/read_surface.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -27,6 +29,7 @@
 #include <mesh/io/vtk_soup.h>
 #include <mesh/soup/cell_types.h>
 #include <mesh/tet/orientation.h>
+#include <mesh/tet/select_scalar.h>
 
 namespace tetralux::mesh {
 namespace {
@@ -37,6 +40,11 @@ template <class Reader>
 vtkSmartPointer<vtkPolyData> readWith(const std::string& path) {
     const vtkNew<Reader> reader;
     reader->SetFileName(path.c_str());
+    if constexpr (requires { reader->ReadAllScalarsOn(); }) {  // of a legacy file VTK takes one array if not told
+        reader->ReadAllScalarsOn();
+        reader->ReadAllVectorsOn();
+        reader->ReadAllFieldsOn();
+    }
     reader->Update();
     return reader->GetOutput();
 }
@@ -116,6 +124,7 @@ CellSoup trianglesOf(vtkPolyData* surface) {
     throwOnVtkError();
     vtkPolyData* const result = triangulate->GetOutput();
     if (result->GetPoints() == nullptr) return soup;
+    soup.fields = soupFromVtk(result).fields;
     soup.points.resize(static_cast<std::size_t>(result->GetNumberOfPoints()));
     for (std::size_t i = 0; i < soup.points.size(); ++i) result->GetPoint(static_cast<vtkIdType>(i), &soup.points[i].x);
     vtkIdType count = 0;
@@ -131,9 +140,38 @@ CellSoup trianglesOf(vtkPolyData* surface) {
     return soup;
 }
 
+void takeScalars(std::vector<Field> fields, const std::string& name, const std::string& path, SurfaceMesh& surface) {
+    TetMesh carrier;
+    carrier.positions = surface.positions;
+    carrier.fields = std::move(fields);
+    ChosenScalar chosen;
+    try {
+        chosen = scalarOf(carrier, name);
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(fmt::format("{}: {}", path, error.what()));
+    }
+    const bool onPoints = chosen.association == Association::Point;
+    if (chosen.values.size() != (onPoints ? surface.positions.size() : surface.triangles.size()))
+        throw std::runtime_error(
+            fmt::format("{}: '{}' has not one value for each polygon; write the file again", path, name));
+    const auto isThere = [&](std::size_t place) { return std::abs(chosen.values[place]) <= largestScalar; };
+    std::vector<std::array<PointIndex, 3>> kept;
+    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+        const std::array<PointIndex, 3>& corners = surface.triangles[i];
+        if (onPoints ? !std::all_of(corners.begin(), corners.end(), isThere) : !isThere(i)) continue;
+        kept.push_back(corners);
+        if (!onPoints) surface.scalars.push_back(chosen.values[i]);
+    }
+    if (kept.empty())
+        throw std::runtime_error(fmt::format("{}: no value of '{}' is finite; choose another field", path, name));
+    surface.triangles = std::move(kept);
+    surface.association = chosen.association;
+    if (onPoints) surface.scalars = std::move(chosen.values);
+}
+
 }  // namespace
 
-SurfaceMesh readSurface(const std::string& path, bool isolated) {
+SurfaceMesh readSurface(const std::string& path, bool isolated, const std::string& field) {
     const PolygonReader read = readerFor(path);
     std::error_code failed;
     if (!std::filesystem::exists(path, failed))
@@ -163,6 +201,7 @@ SurfaceMesh readSurface(const std::string& path, bool isolated) {
     }
     if (surface.triangles.empty())
         throw std::runtime_error(fmt::format("{}: holds no polygon; give a surface, or write the file again", path));
+    if (!field.empty()) takeScalars(std::move(soup.fields), field, path, surface);
     return surface;
 }
 

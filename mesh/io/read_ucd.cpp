@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fstream>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
-#include <fmt/format.h>
 #include <vtkAVSucdReader.h>
 #include <vtkNew.h>
 
@@ -23,20 +21,19 @@ bool acceptsUcd(const std::string& source) {
 }
 
 /// Abaqus calls its files ".inp" too.
-void refuseAbaqus(const std::string& source) {
+bool isOfAbaqus(const std::string& source) {
     std::ifstream in(source);
     std::string line;
     while (std::getline(in, line) && (line.empty() || line[0] == '#')) {
     }
-    if (line.starts_with('*')) {
-        throw std::runtime_error(fmt::format(
-            "{}: is a file of Abaqus, which is not read; convert it to .vtu or Gmsh's .msh (meshio, Gmsh)", source));
-    }
+    return line.starts_with('*');
 }
 
 CellSoup readUcd(const std::string& source, const ReadOptions& options) {
     checkReadable(source);
-    refuseAbaqus(source);
+    if (isOfAbaqus(source)) {
+        return meshioFormat.read(source, options);
+    }
     return readThirdParty(source, options.isolated, [&] {
         const std::string text = readWholeFile(source);
         const bool isText = text.find('\0') == std::string::npos;

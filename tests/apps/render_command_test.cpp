@@ -15,6 +15,21 @@ using RenderCommand = CommandLine;
 using projection::Image;
 using projection::readImage;
 
+TEST_F(RenderCommand, AMeshComesThroughStandardInput) {
+    write("corner.vtu", vtuText(cornerTetrahedron(5)));
+    write("noise", "no mesh");
+    const auto withInput = [&](const std::string& options, const std::string& input) {
+        return runProgram({"/bin/sh", "-c", std::string(TETRALUX_PROGRAM) + " " + options + " < " + input}, path(""));
+    };
+    const std::string options = "--size 16x16 --range all --quiet";  // reads it twice, were it a series
+    expectGood("render corner.vtu -o file.exr " + options);
+    EXPECT_EQ(withInput("render - -o piped.exr " + options, "corner.vtu").status, 0);
+    EXPECT_EQ(contentOf(path("piped.exr")), contentOf(path("file.exr")));
+    EXPECT_EQ(withInput("info -", "noise").status, 2);
+    EXPECT_EQ(withInput("info -", "noise").err.rfind("tetralux: -: standard input holds no .vtu", 0), 0u);
+    EXPECT_EQ(withInput("info -", "/dev/null").err.rfind("tetralux: -: standard input is empty", 0), 0u);
+}
+
 TEST_F(RenderCommand, FromFileToPixelByTheClosedForm) {
     write("corner.vtu", vtuText(cornerTetrahedron(5)));
     expectGood(std::string("render corner.vtu -o a.exr --tf constant.json") + lineView);

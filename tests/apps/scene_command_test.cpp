@@ -3,6 +3,8 @@
 // tetralux render: where from, and the part as a surface.
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include <projection/image/image.h>
 
 #include "command_line_test.h"
@@ -82,6 +84,29 @@ TEST_F(SceneCommand, AnEmptyPictureSaysWhy) {
     EXPECT_NE(warningOf("--tf nothing.json").find("transfer function"), std::string::npos);
     EXPECT_NE(warningOf("--clip-plane 0,0,9,0,0,1").find("clipping planes"), std::string::npos);
     EXPECT_NE(warningOf("--eye 0,0,9 --target 0,0,20").find("behind the eye"), std::string::npos);
+}
+
+TEST_F(SceneCommand, SurfacesShowFieldsOfTheirOwn) {
+    write("corner.vtu", vtuText(cornerTetrahedron(5)));
+    write("colors.json", R"({"color": [[0, 0, 0, 0], [10, 1, 0.5, 0.25]], "extinction": [[0, 0]]})");
+    write("patch.vtk",  // at 1,1: p is 0.25 · 8 + 0.25 · 4
+          "# vtk DataFile Version 3.0\npatch\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n0 0 3 4 0 3 0 4 3 4 4 3\n"
+          "POLYGONS 2 8\n3 0 1 2 3 1 3 2\nCELL_DATA 2\nSCALARS c double\nLOOKUP_TABLE default\n6 9\n"
+          "POINT_DATA 4\nSCALARS p double\nLOOKUP_TABLE default\n0 8 4 1e300\n");
+    const std::string render =
+        std::string("render corner.vtu -o a.exr --quiet --tf colors.json --surface patch.vtk --surface-flat") +
+        lineView;
+    const auto colorWith = [&](const std::string& options) {
+        expectGood(render + options);
+        return glm::vec3(readImage(path("a.exr")).at(0, 0));
+    };
+    const glm::vec3 full(1.0f, 0.5f, 0.25f);
+    EXPECT_LT(glm::distance(colorWith(" --surface-scalar p"), 0.3f * full), 1e-6f);
+    EXPECT_LT(glm::distance(colorWith(" --surface-scalar c"), 0.6f * full), 1e-6f);
+    EXPECT_LT(glm::distance(colorWith(" --surface-scalar none --surface-color 0.5,0.5,0.5"), glm::vec3(0.5f)), 1e-6f);
+    expectRefused(render + " --surface-scalar q", {"patch.vtk", "q", "'p'", "'c'"});
+    expectRefused(render + " --surface-scalar p --surface-scalar c", {"--surface-scalar", "2 for 1"});
+    expectRefused("render bucky:4 -o a.png --surface-scalar p", {"--surface-scalar", "1 for 0"});
 }
 
 TEST_F(SceneCommand, TheBoundaryHidesTheVolume) {

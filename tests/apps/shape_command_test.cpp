@@ -80,6 +80,23 @@ TEST_F(ShapeCommand, PicturesWithMapsAreVerified) {
     expectGood("render bucky:6 --size 12x12 -o a.png --gradient-opacity 0.3 --quiet");
 }
 
+TEST_F(ShapeCommand, IsosurfacesAreLitUnlessOneSaysOtherwise) {
+    const std::string render = "render bucky:6 --size 24x24 --isosurfaces 5 --quiet -o ";
+    const auto differ = [&](const std::string& a, const std::string& b) {
+        return projection::compareImages(readImage(path(a)), readImage(path(b))).max;
+    };
+    expectGood(render + "usual.exr");
+    expectGood(render + "head.exr --headlight");
+    expectGood(render + "unlit.exr --unlit");
+    expectGood(render + "light.exr --light 1,2,3");
+    EXPECT_EQ(differ("usual.exr", "head.exr"), 0.0);
+    EXPECT_GT(differ("usual.exr", "unlit.exr"), 1e-2);
+    EXPECT_GT(differ("usual.exr", "light.exr"), 1e-2);
+    expectGood(render + "average.exr --mode average");  // of modes without light it asks none
+    expectRefused(render + "a.exr --unlit --headlight", {"--unlit", "leave one of them out"});
+    expectRefused("render bucky:4 -o a.png --unlit", {"--unlit", "--isosurfaces"});
+}
+
 TEST_F(ShapeCommand, TheMapOfContributionsHoldsNumbers) {
     const std::string render = "render bucky:6 --size 24x24 --mode contributions --report r.json --quiet -o ";
     const auto largest = [&](const std::string& name) {

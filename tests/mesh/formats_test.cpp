@@ -48,6 +48,35 @@ TEST(Formats, DamagedCopiesAreReadOrRefused) {
     }
 }
 
+/// Packed by gzip itself, so that nothing here is both writer and reader.
+TEST(Formats, PackedByGzip) {
+    const auto packed = [](const std::string& file) { return std::system(("gzip -nf " + file).c_str()) == 0; };
+    for (const SmallMesh& small : smallMeshes()) {
+        if (std::filesystem::path(small.source).extension().empty() || small.source.find(':') != std::string::npos)
+            continue;
+        SCOPED_TRACE(small.source);
+        const TemporaryFolder folder;
+        const std::string source = written(small, folder);
+        if (!std::filesystem::is_regular_file(source)) continue;
+        ASSERT_TRUE(packed(source));
+        const ReadResult result = readMesh(source + ".gz");
+        EXPECT_EQ(result.mesh.cells.size(), 2u);
+        EXPECT_NEAR(totalVolume(result.mesh), smallMeshVolume, 1e-7);
+
+        std::ifstream in(source + ".gz", std::ios::binary);
+        const std::string whole((std::istreambuf_iterator<char>(in)), {});
+        for (const Damage damage : damages) {
+            folder.write(std::filesystem::path(source + ".gz").filename(), damagedCopy(whole, damage, 1));
+            const ReadingEnd end = readAll(source + ".gz");
+            EXPECT_TRUE(end == ReadingEnd::Mesh || end == ReadingEnd::Refusal) << damageName(damage);
+        }
+    }
+    const TemporaryFolder folder;
+    expectError([&] { readMesh(folder.write("a.vtu.gz", "x")); }, "a.vtu.gz: does not begin as a file of gzip");
+    expectError([&] { readMesh(folder.write("a.vtu.gz", "\x1f\x8b\x08")); }, "a.vtu.gz: cannot be unpacked");
+    expectError([&] { readMesh(folder.write("a.xyz9.gz", "x")); }, "unknown kind of mesh");
+}
+
 /// Two cubes in a row, x + 2 y + 3 z on points and 5, 7 on cells: the smallest file that HDF5 1.10 writes of them.
 TEST(Formats, VtkHdf) {
     const std::filesystem::path whole = std::filesystem::path(TETRALUX_TEST_DATA) / "cubes.vtkhdf";
@@ -161,10 +190,41 @@ TEST(Formats, WhatIsNotReadSaysWhatToDo) {
     expectError(reading("a.sol", "x"), "a.sol: holds the values of a MEDIT mesh; give the .mesh");
     expectError(reading("a.h5", "x"), "a.h5: is HDF5");
     expectError(reading("a.vtkhdf", "x"), "a.vtkhdf: does not begin as a VTKHDF file");
-    expectError(reading("a.inp", "*HEADING\n*NODE\n"), "a.inp: is a file of Abaqus");
     expectError(reading("a.msh", "(0 \"Fluent\")\n"), "is a mesh of ANSYS Fluent");
     expectError(reading("a.cas", "no parenthesis"), "a.cas: does not begin as a case of ANSYS Fluent");
     expectError(reading("a.xyz9", "x"), "a.xyz9: unknown kind of mesh; give one of VTK XML");
+}
+
+/// A stand-in for meshio, as it may not be installed: what is asked of it, and what becomes of its answers.
+TEST(Formats, ByMeshio) {
+    const TemporaryFolder folder, modules;
+    const auto install = [&](const std::string& text) { modules.write("meshio.py", text); };
+    ::setenv("PYTHONPATH", modules.file("").c_str(), 1);
+    ::setenv("PYTHONDONTWRITEBYTECODE", "1", 1);
+    const std::string mesh = folder.write("a.su2", "a mesh"), abaqus = folder.write("a.inp", "*HEADING\n*NODE\n");
+    const std::string reads =
+        "class Mesh: cell_sets = {}\n"
+        "def read(path):\n"
+        "    if 'broken' in open(path).read(): raise ValueError('no\\nelements')\n"
+        "    return Mesh()\n"
+        "def write(path, mesh, file_format): open(path, 'w').write(";
+    install(reads + "'''" + smallVtu() + "''')\n");
+    for (const std::string& source : {mesh, abaqus}) {
+        const ReadResult result = readMesh(source);
+        EXPECT_EQ(result.mesh.cells.size(), 2u);
+        EXPECT_LT(largestError(result.mesh, smallMeshField), 1e-6);
+    }
+    expectError([&] { readMesh(folder.write("b.su2", "broken")); },
+                "b.su2: meshio cannot read it: no elements; write it again");
+    install(reads + "'<VTKFile')\n");
+    expectError([&] { readMesh(mesh); }, "a.su2: by meshio: ");
+    install("def read(path): raise SystemExit('bye')");
+    expectError([&] { readMesh(mesh); }, "a.su2: meshio cannot read it: bye");
+    install("import os\nos._exit(9)");
+    expectError([&] { readMesh(mesh); }, "a.su2: is read by meshio: python3: ended with status 9");
+    install("raise ImportError");
+    expectError([&] { readMesh(mesh); }, "a.su2: is read by meshio, which python3 does not find; install it");
+    ::unsetenv("PYTHONPATH");
 }
 
 /// Cells that have the number of points of a uniform order but are not of one, and weights that change the shape.

@@ -133,7 +133,7 @@ def equidistant_isosurfaces(check):
         tau, color = function.at(values)
         peaks = [{"value": float(v), "opacity": float(-np.expm1(-t * step)), "color": list(map(float, c))} for v, t, c in zip(values, tau, color)]
         shown = {"color": SMOOTH["color"], "extinction": [[0.0, 0.0]], "isosurfaces": peaks}
-        check.same(f"{count} of them", [f"--isosurfaces={count}"], Look(mode="scale-invariant"), functions=(SMOOTH,), shown=shown)
+        check.same(f"{count} of them", [f"--isosurfaces={count}", "--unlit"], Look(mode="scale-invariant"), functions=(SMOOTH,), shown=shown)
     convergence(check, low, high)
 
 

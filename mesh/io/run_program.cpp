@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <apps/run_program.h>
+#include <mesh/io/run_program.h>
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-namespace tetralux::apps {
+namespace tetralux::mesh {
 
 namespace {
 
@@ -57,4 +57,4 @@ void runProgram(const std::vector<std::string>& commandLine, const std::string& 
     throw std::runtime_error(fmt::format("{}: {}; its last words: {}", commandLine.front(), how, lastLine(output)));
 }
 
-}  // namespace tetralux::apps
+}  // namespace tetralux::mesh

@@ -118,7 +118,8 @@ preint::PreintegrationTable buildTable(const Scene& scene, const preint::Transfe
     options.meanColors = asksMeanColors(scene) || scene.settings.contributions.any();
     options.evenTexelsFirst = !options.meanColors;
     options.wantedError = wantedErrorOf(scene);
-    if (takesSamples(scene) || showsSingleSegments(scene)) options.size = options.lengthSlices = 2;  // its zones are all
+    if (takesSamples(scene) || showsSingleSegments(scene))
+        options.size = options.lengthSlices = 2;  // its zones are all
     const double largestScale = scene.settings.largestExtinctionScale;
     if (integralOf(scene.settings.mode) == preint::Integral::ScaleInvariant) {
         const bool adds = addsUp(scene.settings.mode);
@@ -178,9 +179,7 @@ public:
     std::string name() const override { return "gl"; }
     std::string renderer() const override { return state_->renderer; }
     std::map<std::string, double> prepareMilliseconds() const override { return prepare_; }
-    const preint::PreintegrationTable* table() const override {
-        return table_ && looksUp() ? &*table_ : nullptr;
-    }
+    const preint::PreintegrationTable* table() const override { return table_ && looksUp() ? &*table_ : nullptr; }
     double wantedTableError() const override { return wantedErrorOf(scene_); }
     bool walksNodes() const override { return walked_.has_value(); }
 

@@ -124,7 +124,8 @@ private:
         if (!beyondFloat_.empty()) addPixelsOf(beyondFloat_, blockMargin, Uncertainty::BeyondFloat, frame, pixels);
         if (!report.floatSamples) return pixels;
         frame.sampleShift = *report.floatSamples;
-        if (frame.sampleShift.x > EdgeOnPlanes::barely.x) pixels.add(Uncertainty::Outline, perturbedPixels(scene_, frame));
+        if (frame.sampleShift.x > EdgeOnPlanes::barely.x)
+            pixels.add(Uncertainty::Outline, perturbedPixels(scene_, frame));
         pixels.add(Uncertainty::FaceEdgeOn, edgeOnFaces_.pixels(frame, edgeOnFaces_.candidates(frame)));
         return pixels;
     }
@@ -140,8 +141,8 @@ private:
     }
 
     /// Where a cell beyond float ends is beyond float too, and engines look at whole blocks of pixels: hence a margin.
-    void addPixelsOf(const std::vector<mesh::CellIndex>& cells, int margin, Uncertainty reason, const CameraFrame& frame,
-                     UncertainPixels& pixels) const {
+    void addPixelsOf(const std::vector<mesh::CellIndex>& cells, int margin, Uncertainty reason,
+                     const CameraFrame& frame, UncertainPixels& pixels) const {
         const CellProjector projector(*scene_.mesh, sceneUnits(*scene_.mesh), frame);
         for (mesh::CellIndex cell : cells) {
             PixelRect rect;
@@ -150,7 +151,7 @@ private:
             for (int y = std::max(0, rect.y0 - margin); y < std::min(frame.height, rect.y1 + margin); ++y)
                 for (int x = x0; x < x1; ++x)
                     pixels.mark(reason, static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame.width) +
-                                           static_cast<std::uint32_t>(x));
+                                            static_cast<std::uint32_t>(x));
         }
     }
 

@@ -121,8 +121,8 @@ json renderReport(const RenderOptions& options, const SceneRenderer& renderer) {
     json because = json::object();
     for (const FrameReport& frame : record.frames) {
         repaired += frame.pixelsRepaired;
-        for (const auto& [doubt, count] : frame.repairedBecause)
-            because[doubt] = because.value(doubt, std::uint64_t{0}) + count;
+        for (const auto& [reason, count] : frame.repairedBecause)
+            because[reason] = because.value(reason, std::uint64_t{0}) + count;
         wrong += frame.pixelsWrong;
     }
     const int perAxis = projection::samplesPerAxis(options.settings.samples);

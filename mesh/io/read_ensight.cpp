@@ -3,9 +3,13 @@
 /// EnSight cases. VTK's reader takes quotes for parts of names and reads numbers as C's atof does, so it is given a
 /// folder in which neither matters.
 #include <algorithm>
+#include <cctype>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -49,9 +53,38 @@ std::string withUnderscores(std::string name) {
     return name;
 }
 
+/// VTK's reader runs on without end at a section that it does not know. \throws std::runtime_error naming its line.
+void checkSections(const std::string& text) {
+    static const std::set<std::string> known{"FORMAT", "GEOMETRY", "VARIABLE", "TIME", "FILE", "MATERIAL"};
+    std::istringstream lines(text);
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number) {
+        const std::string word = line.substr(0, line.find_last_not_of(" \t\r") + 1);
+        const bool isWord = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
+            return std::isalpha(c) != 0 || c == '_';
+        });
+        if (isWord && !known.contains(word))
+            throw std::runtime_error(
+                fmt::format("line {}: \"{}\" is no section that can be read; take it out, or write the rest of a file "
+                            "that is cut off",
+                            number, word));
+    }
+}
+
+/// Whether `file` stands in the case as a whole word.
+bool holdsWord(const std::string& caseText, const std::string& file) {
+    constexpr const char* around = " \t\r\n\":/";
+    const auto ends = [&](std::size_t at) {
+        return at >= caseText.size() || std::strchr(around, caseText[at]) != nullptr;
+    };
+    for (std::size_t at = caseText.find(file); at != std::string::npos; at = caseText.find(file, at + 1))
+        if ((at == 0 || ends(at - 1)) && ends(at + file.size())) return true;
+    return false;
+}
+
 /// Whether the case names `file`, or, with the digits of its number as stars, one of a series.
 bool isNamed(const std::string& caseText, const std::string& file) {
-    if (caseText.find(file) != std::string::npos) {
+    if (holdsWord(caseText, file)) {
         return true;
     }
     std::string pattern = file;
@@ -78,6 +111,7 @@ std::optional<PlainText> plainFile(const fs::path& file) {
 /// \returns whether some numbers are not what they were.
 bool fillFolder(const std::string& source, const TemporaryFolder& folder) {
     const std::string text = readWholeFile(source);
+    checkSections(text);
     bool changed = false;
     for (const fs::directory_entry& entry : fs::directory_iterator(fs::absolute(source).parent_path())) {
         const std::string name = entry.path().filename().string();

@@ -42,7 +42,8 @@ DepthRange depthRange(const mesh::BoundingBox& bounds, const Camera& camera) {
     const double middle = frame.orthographic ? glm::dot(towards, frame.forward) : glm::length(towards);
     const double radius = std::max(0.5 * bounds.diagonal(), 1e-9 * std::abs(middle));
     const double nearest = std::max(0.0, middle - radius);
-    return {nearest, std::max(middle + radius, nearest + radius)};
+    const double farthest = middle + radius;
+    return {nearest, farthest > nearest ? farthest : nearest + radius};  // all of it may be behind the eye's plane
 }
 
 bool composesParts(Mode mode) {

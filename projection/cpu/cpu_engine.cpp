@@ -437,8 +437,10 @@ void CpuEngine::draw(const FrameControl* control, Image& image, FrameReport& rep
     }
     report.tileEntries = memory_->bins.entryCount();
     report.tileEntriesSaved = report.tileEntries - cellsSetUp;
-    std::sort(uncertainPixels.begin(), uncertainPixels.end());
-    uncertainPixels.erase(std::unique(uncertainPixels.begin(), uncertainPixels.end()), uncertainPixels.end());
+    if (uncertainPixels.size() > order_.uncertainPixels.size()) {  // those of the order are ascending
+        std::sort(uncertainPixels.begin(), uncertainPixels.end());
+        uncertainPixels.erase(std::unique(uncertainPixels.begin(), uncertainPixels.end()), uncertainPixels.end());
+    }
     report.uncertainPixels = std::move(uncertainPixels);
     report.stageMilliseconds["draw"] += millisecondsSince(start);
 }

@@ -101,7 +101,7 @@ glm::vec4 finishedPixel(const TileFrame& frame, const TileBuffers& px, std::size
     }
 }
 
-/// Writes the tile's pixels, and tells which of them are in doubt: drawn out of order if that was `checked`, or of a
+/// Writes the tile's pixels, and tells which of them are uncertain: drawn out of order if that was `checked`, or of a
 /// scalar next to which the colour is another.
 template <TileKind Kind>
 void resolveTile(const TileFrame& frame, const TileBuffers& px, int x0, int y0, bool checked, Image& image,

@@ -60,7 +60,7 @@ void add(const FrameReport& part, FrameReport& whole) {
     whole.fragments += part.fragments;
     whole.frameMilliseconds += part.frameMilliseconds;
     whole.pixelsRepaired += part.pixelsRepaired;
-    for (const auto& [doubt, count] : part.repairedBecause) whole.repairedBecause[doubt] += count;
+    for (const auto& [reason, count] : part.repairedBecause) whole.repairedBecause[reason] += count;
     whole.pixelsWrong += part.pixelsWrong;
     whole.tileEntries += part.tileEntries;
     whole.tileEntriesSaved += part.tileEntriesSaved;

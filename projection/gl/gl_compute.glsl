@@ -34,7 +34,7 @@ struct ChunkCommands {
 layout(std430, binding = 0) buffer Plan {
     uint drawn;               // cells that cover pixels
     uint skipped[2];          // outside the view, without a pixel centre
-    uint unsettled;           // whether the order is in doubt
+    uint unsettled;           // whether the order is uncertain
     uint sortGroups[3];       // dispatch: blocks of the sort
     uint settleGroups[3];     // dispatch: one lane per drawn cell
     ChunkCommands chunks[];

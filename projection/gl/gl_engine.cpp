@@ -90,16 +90,19 @@ double longestEdge(const mesh::ScalarMesh& mesh, const SceneUnits& units) {
         [](double a, double b) { return std::max(a, b); });
 }
 
-/// A mean colour shows once in a pixel, other errors of a table as often as there are cells along a ray.
-constexpr double ofMeanColors = 5.0;
-
 double wantedErrorOf(const Scene& scene) {
-    return scene.settings.table.wantedError * (scene.settings.mode == Mode::FirstHit ? ofMeanColors : 1.0);
+    return scene.settings.table.wantedError;
 }
 
 /// Silhouettes multiply depth by k, which makes faint segments opaque: their colours and extinction have to be right.
 bool asksMeanColors(const Scene& scene) {
     return scene.settings.mode == Mode::FirstHit || scene.settings.shading.silhouette;
+}
+
+/// The colour of one segment, however faint, is the whole picture: what a table would have to hold for that costs more
+/// than the nodes of one segment.
+bool showsSingleSegments(const Scene& scene) {
+    return scene.settings.mode == Mode::FirstHit && scene.settings.table.size == 0;
 }
 
 /// Samples ask for colour and extinction at one scalar: there is nothing to integrate.
@@ -115,7 +118,8 @@ preint::PreintegrationTable buildTable(const Scene& scene, const preint::Transfe
     options.meanColors = asksMeanColors(scene) || scene.settings.contributions.any();
     options.evenTexelsFirst = !options.meanColors;
     options.wantedError = wantedErrorOf(scene);
-    if (takesSamples(scene)) options.size = 2;  // only its zones are asked for
+    if (takesSamples(scene) || showsSingleSegments(scene))
+        options.size = options.lengthSlices = 2;  // its zones are all
     const double largestScale = scene.settings.largestExtinctionScale;
     if (integralOf(scene.settings.mode) == preint::Integral::ScaleInvariant) {
         const bool adds = addsUp(scene.settings.mode);
@@ -144,7 +148,7 @@ public:
             table_ = buildTable(scene, function_, units_);
             const bool misses = table_->measuredError > wantedTableError() && scene.settings.table.size == 0;
             const bool blurs = asksMeanColors(scene) && nodesCloserThanTexels(function_, *table_);
-            if (misses || blurs || takesSamples(scene)) walked_ = walkedPieces(function_, *table_);
+            if (misses || blurs || !looksUp()) walked_ = walkedPieces(function_, *table_);
             prepare_["table"] = watch.lap();
             const auto& shading = scene.settings.shading;
             fullLight_ = shading.lit() && !shading.plain();
@@ -175,14 +179,13 @@ public:
     std::string name() const override { return "gl"; }
     std::string renderer() const override { return state_->renderer; }
     std::map<std::string, double> prepareMilliseconds() const override { return prepare_; }
-    const preint::PreintegrationTable* table() const override {
-        return table_ && !takesSamples(scene_) ? &*table_ : nullptr;
-    }
+    const preint::PreintegrationTable* table() const override { return table_ && looksUp() ? &*table_ : nullptr; }
     double wantedTableError() const override { return wantedErrorOf(scene_); }
     bool walksNodes() const override { return walked_.has_value(); }
 
 private:
     Mode mode() const { return scene_.settings.mode; }
+    bool looksUp() const { return !takesSamples(scene_) && !showsSingleSegments(scene_); }
     /// Blending cells of one colour is the same in any order; an order that was asked for is made all the same.
     bool orderMatters() const {
         const bool blends =

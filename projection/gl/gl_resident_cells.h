@@ -21,7 +21,7 @@ namespace tetralux::projection {
 /// What the GPU found out about a frame, in this order in the plan (gl_compute.glsl).
 struct GlFrameCounts {
     GLuint drawn = 0, outsideView = 0, noPixelCentre = 0;
-    GLuint unsettled = 0;  ///< not 0: ties, or a relation that is broken: the order is in doubt, the picture of no use
+    GLuint unsettled = 0;  ///< not 0: ties, or a relation that is broken: the order is uncertain, the picture of no use
 };
 
 class GlResidentCells {

@@ -214,7 +214,7 @@ void VisibilitySorter::State::seeGaps(const CellProjector& projector) {
 }
 
 /// The order by keys, by the last frame's order repaired, or by the relations alone: the first that keeps every
-/// relation. Which pixels a cycle leaves in doubt is told by the relations that the order breaks.
+/// relation. Which pixels a cycle leaves uncertain is told by the relations that the order breaks.
 void VisibilitySorter::State::findOrder(const CellProjector& projector) {
     const CameraFrame& frame = projector.frame();
     relations->see(projector);

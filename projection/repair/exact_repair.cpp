@@ -94,14 +94,14 @@ private:
         const std::vector<std::uint32_t> pixels = uncertain.ascending();
         caster_.renderPixels(view, pixels, image);
         report.pixelsRepaired += pixels.size();
-        for (const auto& [doubt, count] : uncertain.byDoubt()) report.repairedBecause[doubt] += count;
+        for (const auto& [reason, count] : uncertain.byReason()) report.repairedBecause[reason] += count;
     }
 
-    /// Mends only what is no number; how many other pixels are in doubt.
+    /// Mends only what is no number; how many other pixels are uncertain.
     std::uint64_t repairWithoutOrder(const View& view, const UncertainPixels& uncertain, Image& image,
                                      FrameReport& report) const {
         UncertainPixels unvouched(image.pixels.size());
-        unvouched.add(Doubt::NotANumber, pixelsNotFinite(image));
+        unvouched.add(Uncertainty::NotANumber, pixelsNotFinite(image));
         repair(view, unvouched, image, report);
         return uncertain.ascending().size() - unvouched.ascending().size();
     }
@@ -112,18 +112,18 @@ private:
     UncertainPixels uncertainPixels(const Camera& camera, const Image& image, const FrameReport& report) const {
         CameraFrame frame = cameraFrame(camera);
         UncertainPixels pixels(image.pixels.size());
-        pixels.add(Doubt::Order, report.uncertainPixels);
-        pixels.add(Doubt::NotANumber, pixelsNotFinite(image));
+        pixels.add(Uncertainty::Order, report.uncertainPixels);
+        pixels.add(Uncertainty::NotANumber, pixelsNotFinite(image));
         if (touchingShows()) {
-            pixels.add(Doubt::EdgeMet, perturbedEdgePixels(scene_, frame));
+            pixels.add(Uncertainty::EdgeMet, perturbedEdgePixels(scene_, frame));
             if (!frame.orthographic) addEyeContact(frame, pixels);
         }
-        if (outlines_) pixels.add(Doubt::Outline, outlines_->pixels(frame));
-        if (!beyondFloat_.empty()) addPixelsOf(beyondFloat_, blockMargin, Doubt::BeyondFloat, frame, pixels);
+        if (outlines_) pixels.add(Uncertainty::Outline, outlines_->pixels(frame));
+        if (!beyondFloat_.empty()) addPixelsOf(beyondFloat_, blockMargin, Uncertainty::BeyondFloat, frame, pixels);
         if (!report.floatSamples) return pixels;
         frame.sampleShift = *report.floatSamples;
-        if (outlines_) pixels.add(Doubt::Outline, perturbedPixels(scene_, frame));
-        pixels.add(Doubt::FaceEdgeOn, edgeOnFaces_.pixels(frame, edgeOnFaces_.candidates(frame)));
+        if (outlines_) pixels.add(Uncertainty::Outline, perturbedPixels(scene_, frame));
+        pixels.add(Uncertainty::FaceEdgeOn, edgeOnFaces_.pixels(frame, edgeOnFaces_.candidates(frame)));
         return pixels;
     }
 
@@ -134,12 +134,12 @@ private:
         if (contact.cells.empty() ||
             !(contact.onBoundary || scene_.settings.mode == Mode::FirstHit || scene_.settings.contributions.perCell))
             return;
-        addPixelsOf(contact.cells, 0, Doubt::EyeTouched, frame, pixels);
+        addPixelsOf(contact.cells, 0, Uncertainty::EyeTouched, frame, pixels);
     }
 
     /// Where a cell beyond float ends is beyond float too, and engines look at whole blocks of pixels: hence a margin.
-    void addPixelsOf(const std::vector<mesh::CellIndex>& cells, int margin, Doubt doubt, const CameraFrame& frame,
-                     UncertainPixels& pixels) const {
+    void addPixelsOf(const std::vector<mesh::CellIndex>& cells, int margin, Uncertainty reason,
+                     const CameraFrame& frame, UncertainPixels& pixels) const {
         const CellProjector projector(*scene_.mesh, sceneUnits(*scene_.mesh), frame);
         for (mesh::CellIndex cell : cells) {
             PixelRect rect;
@@ -147,8 +147,8 @@ private:
             const int x0 = std::max(0, rect.x0 - margin), x1 = std::min(frame.width, rect.x1 + margin);
             for (int y = std::max(0, rect.y0 - margin); y < std::min(frame.height, rect.y1 + margin); ++y)
                 for (int x = x0; x < x1; ++x)
-                    pixels.mark(doubt, static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame.width) +
-                                           static_cast<std::uint32_t>(x));
+                    pixels.mark(reason, static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame.width) +
+                                            static_cast<std::uint32_t>(x));
         }
     }
 

@@ -24,7 +24,7 @@ namespace {
 constexpr double faintest = 1e-3;
 
 /// The scalar of 0 … 1 at a face errs by two roundings of float, and by what its plane does: this share of the cell's
-/// longest edge (float_limits.h). Where that makes more than `mostRounding`, every pixel of the cell is in doubt
+/// longest edge (float_limits.h). Where that makes more than `mostRounding`, every pixel of the cell is uncertain
 /// already.
 constexpr double scalarRounding = 0x1p-23, planeRounding = 4e-7, mostRounding = 1e-3;
 

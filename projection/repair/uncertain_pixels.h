@@ -12,7 +12,7 @@
 namespace tetralux::projection {
 
 /// Why an engine cannot vouch for a pixel.
-enum class Doubt {
+enum class Uncertainty {
     Order,        ///< of its cells (visibility_order.h), or what the engine saw of it
     NotANumber,   ///< the engine said so itself, or computed none
     EdgeMet,      ///< its ray runs along edges, where single cells show (isosurface_perturbation.h)
@@ -23,19 +23,19 @@ enum class Doubt {
     Count
 };
 
-/// Pixels (y·width + x) that an engine cannot vouch for, each counted for the first doubt that names it.
+/// Pixels (y·width + x) that an engine cannot vouch for, each counted for the first reason that names it.
 class UncertainPixels {
 public:
     explicit UncertainPixels(std::size_t pixels) : pixels_(pixels) {}
 
-    void add(Doubt doubt, std::span<const std::uint32_t> pixels) {
-        for (std::uint32_t pixel : pixels) mark(doubt, pixel);
+    void add(Uncertainty reason, std::span<const std::uint32_t> pixels) {
+        for (std::uint32_t pixel : pixels) mark(reason, pixel);
     }
-    void mark(Doubt doubt, std::uint32_t pixel) {
+    void mark(Uncertainty reason, std::uint32_t pixel) {
         if (marked_.empty()) marked_.resize(pixels_);
         if (marked_[pixel]) return;
         marked_[pixel] = true;
-        ++counts_[static_cast<std::size_t>(doubt)];
+        ++counts_[static_cast<std::size_t>(reason)];
     }
 
     bool any() const { return !marked_.empty(); }
@@ -47,9 +47,9 @@ public:
         return all;
     }
 
-    /// How many there are for each doubt, by its name in reports.
-    std::map<std::string, std::uint64_t> byDoubt() const {
-        static constexpr std::array<const char*, static_cast<std::size_t>(Doubt::Count)> names{
+    /// How many there are for each reason, by its name in reports.
+    std::map<std::string, std::uint64_t> byReason() const {
+        static constexpr std::array<const char*, static_cast<std::size_t>(Uncertainty::Count)> names{
             "order", "not a number", "edges met", "eye touched", "outlines", "beyond float", "faces edge-on"};
         std::map<std::string, std::uint64_t> named;
         for (std::size_t i = 0; i < names.size(); ++i)
@@ -60,7 +60,7 @@ public:
 private:
     std::size_t pixels_;
     std::vector<bool> marked_;  ///< none while there are none
-    std::array<std::uint64_t, static_cast<std::size_t>(Doubt::Count)> counts_{};
+    std::array<std::uint64_t, static_cast<std::size_t>(Uncertainty::Count)> counts_{};
 };
 
 }  // namespace tetralux::projection

@@ -379,10 +379,20 @@ TEST(Dialects, EnsightNamesInQuotes) {
         "FORMAT\ntype: ensight gold\n\nGEOMETRY\nmodel: \"my mesh.geo\"\n\nVARIABLE\nscalar per node: s \"a.s\"\n"));
     EXPECT_NEAR(totalVolume(result.mesh), smallMeshVolume, 1e-7);
     EXPECT_LT(largestError(result.mesh, smallMeshField), 1e-6);
+    folder.write("e", "");  // a file whose name is only part of the case's words is none of it
+    EXPECT_NEAR(totalVolume(readMesh(folder.file("the case.case")).mesh), smallMeshVolume, 1e-7);
     // Whatever is wrong is said of the files that are there.
     std::filesystem::remove(folder.file("a.s"));
     const std::string text = errorOf([&] { readMesh(folder.file("the case.case")); });
     EXPECT_NE(text.find(folder.file("a.s")), std::string::npos) << text;
+}
+
+TEST(Dialects, EnsightSectionsThatNobodyKnowsAreRefusedAtOnce) {
+    const TemporaryFolder folder;
+    const SmallMesh small = smallMesh("a.case");
+    folder.write("a.geo", small.files[1].content);
+    const std::string file = folder.write("a.case", "FORMAT\ntype: ensight gold\n\nGEOMETRY\nmodel: \"a.geo\"\n\nVa");
+    expectError([&] { readMesh(file); }, "line 7: \"Va\" is no section");
 }
 
 /// Where the middle of each edge stands among the last six points is left to the file.

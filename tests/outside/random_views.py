@@ -95,8 +95,15 @@ def _clip(rng, mesh, look):
     return ["--slab=" + triple(point + normal + (thickness,))]
 
 
+def _meets(mesh, point, normal):
+    above = (mesh.points - np.array(point)) @ np.array(normal) > 0
+    return any(0 < above[cell].sum() < 4 for cell in mesh.cells)
+
+
 def _slice(rng, mesh, look):
     point, normal = _generic_plane(rng, mesh)
+    while not _meets(mesh, point, normal):  # the program refuses slices that miss the mesh
+        point, normal = _generic_plane(rng, mesh)
     opacity = round(float(rng.choice([1.0, rng.random()])), 3)
     look.slices.append((point, normal, opacity))
     return ["--slice=" + triple(point + normal), "--slice-opacity=%r" % opacity]

@@ -277,6 +277,18 @@ TEST(ReferenceModes, ClosedForms) {
     EXPECT_GT(met, 30);
 }
 
+TEST(DepthRange, EndsWhereTheSphereDoesBehindTheEyesPlaneToo) {
+    const mesh::BoundingBox box{glm::dvec3(-1), glm::dvec3(1)};
+    const double radius = std::sqrt(3.0);
+    Camera camera = cameraAt({0, 0, -0.5}, {0, 0, -2});  // past the middle, looking away from it
+    camera.orthographicHeight = 2;
+    EXPECT_DOUBLE_EQ(depthRange(box, camera).nearest, 0.0);
+    EXPECT_DOUBLE_EQ(depthRange(box, camera).farthest, radius - 0.5);
+    camera = cameraAt({0, 0, -5}, {0, 0, -6});  // all of it is behind
+    camera.orthographicHeight = 2;
+    EXPECT_GT(depthRange(box, camera).farthest, depthRange(box, camera).nearest);
+}
+
 TEST(PixelMaps, OfAnotherSizeAreAnError) {
     const Scene scene = fieldScene("bucky:4", Mode::Standard);
     PixelMaps maps;

@@ -6,9 +6,10 @@
 #include <cmath>
 
 #include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
+
+#include <projection/core/gathered.h>
 
 namespace tetralux::projection {
 
@@ -80,17 +81,11 @@ public:
 
     /// Faces whose condition does not hold well enough, in ascending order.
     std::vector<std::size_t> failing(const std::vector<double>& heights) const {
-        tbb::enumerable_thread_specific<std::vector<std::size_t>> found;
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faceCount(), 8192), [&](const auto& range) {
-            auto& mine = found.local();
-            for (std::size_t face = range.begin(); face != range.end(); ++face) {
-                if (!applies(face)) continue;
-                const FaceCondition condition = at(face);
-                if (!(condition.excess(heights) >= condition.least)) mine.push_back(face);
-            }
+        auto all = gathered<std::size_t>(faceCount(), [&](std::size_t face, auto& found) {
+            if (!applies(face)) return;
+            const FaceCondition condition = at(face);
+            if (!(condition.excess(heights) >= condition.least)) found.push_back(face);
         });
-        std::vector<std::size_t> all;
-        for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
         std::sort(all.begin(), all.end());
         return all;
     }

@@ -5,9 +5,10 @@
 #include <array>
 
 #include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
+
+#include <projection/core/gathered.h>
 
 namespace tetralux::projection {
 
@@ -81,18 +82,12 @@ bool VisibilityRelations::mostlyHold(const std::vector<std::uint32_t>& places) c
 }
 
 std::vector<CellPair> VisibilityRelations::violations(const std::vector<std::uint32_t>& places) const {
-    tbb::enumerable_thread_specific<std::vector<CellPair>> found;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sides_.size(), 4096), [&](const auto& range) {
-        auto& mine = found.local();
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            const auto cell = static_cast<mesh::CellIndex>(i);
-            eachBehind(cell, [&](mesh::CellIndex other) {
-                if (places[other] < places[cell]) mine.emplace_back(cell, other);
-            });
-        }
+    auto all = gathered<CellPair>(sides_.size(), [&](std::size_t i, auto& found) {
+        const auto cell = static_cast<mesh::CellIndex>(i);
+        eachBehind(cell, [&](mesh::CellIndex other) {
+            if (places[other] < places[cell]) found.emplace_back(cell, other);
+        });
     });
-    std::vector<CellPair> all;
-    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
     std::sort(all.begin(), all.end());
     return all;
 }

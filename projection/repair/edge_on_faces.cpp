@@ -7,7 +7,6 @@
 #include <limits>
 
 #include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -15,6 +14,7 @@
 #include <projection/cells/cell_constants.h>
 #include <projection/cells/edge_on_planes.h>
 #include <projection/cells/point_pixel.h>
+#include <projection/core/gathered.h>
 #include <projection/repair/cell_measures.h>
 
 namespace tetralux::projection {
@@ -195,19 +195,6 @@ bool mayBeEdgeOn(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c, con
     return !(least > height * reach);
 }
 
-/// What add(i, found) appends for every i below `count`, in no order.
-template <class Item, class Add>
-std::vector<Item> gatheredFrom(std::size_t count, Add add) {
-    tbb::enumerable_thread_specific<std::vector<Item>> parts;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024), [&](const auto& range) {
-        auto& part = parts.local();
-        for (std::size_t i = range.begin(); i != range.end(); ++i) add(i, part);
-    });
-    std::vector<Item> all;
-    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-    return all;
-}
-
 }  // namespace
 
 EdgeOnFaces::EdgeOnFaces(const Scene& scene) : scene_(scene) {
@@ -247,7 +234,7 @@ std::vector<std::uint32_t> EdgeOnFaces::pixels(const CameraFrame& frame, std::sp
         }
         return std::clamp(std::max(high.x - low.x, high.y - low.y), 1.0, image);
     };
-    return gatheredFrom<std::uint32_t>(cells.size(), [&](std::size_t i, std::vector<std::uint32_t>& found) {
+    return gathered<std::uint32_t>(cells.size(), [&](std::size_t i, std::vector<std::uint32_t>& found) {
         std::array<glm::dvec3, 4> corners;
         for (std::size_t k = 0; k < 4; ++k) corners[k] = see(mesh.cells[cells[i]][k]);
         const double rounding = ofReach * reachOf(corners), aside = rounding + frame.sampleShift.x;
@@ -277,7 +264,7 @@ std::vector<mesh::CellIndex> EdgeOnFaces::candidates(const CameraFrame& frame) c
         }
     });
     const float lowest = lowestPixels + static_cast<float>(perShift * frame.sampleShift.x);
-    return gatheredFrom<mesh::CellIndex>(mesh.cells.size(), [&](std::size_t i, std::vector<mesh::CellIndex>& found) {
+    return gathered<mesh::CellIndex>(mesh.cells.size(), [&](std::size_t i, std::vector<mesh::CellIndex>& found) {
         const auto& [a, b, c, d] = mesh.cells[i];
         if (mayBeEdgeOn(points[a], points[b], points[c], points[d], lowest))
             found.push_back(static_cast<mesh::CellIndex>(i));

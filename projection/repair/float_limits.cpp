@@ -27,12 +27,10 @@
 #include <array>
 #include <cmath>
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
 
 #include <projection/cells/cell_constants.h>
+#include <projection/core/gathered.h>
 #include <projection/core/perturbed_isosurfaces.h>
 #include <projection/core/transfer_support.h>
 #include <projection/repair/cell_measures.h>
@@ -386,14 +384,9 @@ std::vector<mesh::CellIndex> cellsBeyondFloat(const mesh::ScalarMesh& mesh, cons
                                               preint::Integral integral, const FloatUse& use) {
     const FloatLimits limits(mesh, function, integral, use);
     if (!limits.anything()) return {};
-    tbb::enumerable_thread_specific<std::vector<mesh::CellIndex>> found;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.cells.size(), 4096), [&](const auto& range) {
-        auto& mine = found.local();
-        for (std::size_t i = range.begin(); i != range.end(); ++i)
-            if (limits.beyond(static_cast<mesh::CellIndex>(i))) mine.push_back(static_cast<mesh::CellIndex>(i));
+    auto all = gathered<mesh::CellIndex>(mesh.cells.size(), [&](std::size_t i, auto& found) {
+        if (limits.beyond(static_cast<mesh::CellIndex>(i))) found.push_back(static_cast<mesh::CellIndex>(i));
     });
-    std::vector<mesh::CellIndex> all;
-    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
     std::sort(all.begin(), all.end());
     return all;
 }

@@ -6,13 +6,13 @@
 #include <numbers>
 
 #include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <mesh/tet/adjacency.h>
 #include <projection/cells/cell_setup.h>
+#include <projection/core/gathered.h>
 #include <projection/core/perturbed_isosurfaces.h>
 #include <projection/repair/near_line.h>
 
@@ -33,19 +33,6 @@ constexpr double leastWidth = 1e-6, mostWidth = 0.5;
 
 /// Distances from a line along an image axis are so much longer at most.
 constexpr double alongAxis = std::numbers::sqrt2;
-
-/// What add(i, found) appends for every i below `count`, in no order.
-template <class Item, class Add>
-std::vector<Item> gathered(std::size_t count, Add add) {
-    tbb::enumerable_thread_specific<std::vector<Item>> parts;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024), [&](const auto& range) {
-        auto& part = parts.local();
-        for (std::size_t i = range.begin(); i != range.end(); ++i) add(i, part);
-    });
-    std::vector<Item> all;
-    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-    return all;
-}
 
 double longestEdge(const mesh::ScalarMesh& mesh, mesh::CellIndex cell) {
     double longest = 0;

@@ -5,15 +5,13 @@
 #include <array>
 #include <cmath>
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <projection/cells/edge_on_planes.h>
 #include <projection/cells/point_pixel.h>
 #include <projection/core/clip_region.h>
+#include <projection/core/gathered.h>
 #include <projection/core/perturbed_isosurfaces.h>
 #include <projection/core/transfer_support.h>
 #include <projection/repair/near_line.h>
@@ -172,15 +170,9 @@ private:
 /// What add(cell, pixels) finds, for every `step`th cell.
 template <class Add>
 std::vector<std::uint32_t> ofCells(const Scene& scene, mesh::CellIndex step, Add add) {
-    tbb::enumerable_thread_specific<std::vector<std::uint32_t>> found;
-    const auto count = static_cast<mesh::CellIndex>((scene.mesh->cells.size() + step - 1) / step);
-    tbb::parallel_for(tbb::blocked_range<mesh::CellIndex>(0, count, 1024), [&](const auto& range) {
-        auto& mine = found.local();
-        for (mesh::CellIndex i = range.begin(); i != range.end(); ++i) add(i * step, mine);
+    return gathered<std::uint32_t>((scene.mesh->cells.size() + step - 1) / step, [&](std::size_t i, auto& pixels) {
+        add(static_cast<mesh::CellIndex>(i) * step, pixels);
     });
-    std::vector<std::uint32_t> all;
-    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-    return all;
 }
 
 }  // namespace

@@ -22,5 +22,6 @@ void addExtractCommand(CLI::App& program, Command& chosen);
 void addBenchCommand(CLI::App& program, Command& chosen);
 void addColorsCommand(CLI::App& program, Command& chosen);
 void addCompareCommand(CLI::App& program, Command& chosen);
+void addViewCommand(CLI::App& program, Command& chosen);
 
 }  // namespace tetralux::apps

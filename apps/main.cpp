@@ -22,7 +22,7 @@ constexpr int badInput = 2;
 constexpr void (*commands[])(CLI::App&, Command&) = {
     tetralux::apps::addRenderCommand,  tetralux::apps::addMeshCommand,  tetralux::apps::addInfoCommand,
     tetralux::apps::addExtractCommand, tetralux::apps::addBenchCommand, tetralux::apps::addCompareCommand,
-    tetralux::apps::addColorsCommand,
+    tetralux::apps::addColorsCommand,  tetralux::apps::addViewCommand,
 };
 
 /// Errors are one line each, whatever a library wrote.

@@ -46,25 +46,61 @@ std::optional<glm::vec3> ownBackground(projection::Mode mode) {
 
 }  // namespace
 
-SceneRenderer::SceneRenderer(const RenderOptions& options)
-    : options_(options),
-      function_(transferFunctionFor(options.colors)),
-      givenObjects_(readOpaqueObjects(options.opaque)),
-      annotation_(options.annotation),
-      background_(options.background.value_or(ownBackground(options.settings.mode))),
-      keepsNumbers_(options.output != "-" && !isFilm(options.output) && projection::holdsNumbers(options.output)) {
-    options_.camera.orbits = options.frames.has_value();
-    givenObjects_.isolines.width *= projection::samplesPerAxis(options.settings.samples);  // samples are pixels there
-    readStep(options_.read.time);
+SceneRenderer::SceneRenderer(const RenderOptions& options) {
+    change(options, Change::Mesh);
+}
+
+void SceneRenderer::change(const RenderOptions& options, Change change) {
+    if (change == Change::Camera) {
+        options_.camera = options.camera;
+        return placeCamera();
+    }
+    takeLook(options);
+    if (change == Change::Mesh) {
+        engine_.reset();  // of a mesh that may be another one's from here on
+        record_.step.reset();
+        readStep(options_.read.time);
+    }
     if (options_.colors.rangeOfAllSteps && times_.size() > 1) function_.range = rangeOfAllSteps();
     const Stopwatch watch;
+    makeLook();
+    record_.prepareMilliseconds = watch.milliseconds();
+}
+
+void SceneRenderer::takeLook(const RenderOptions& options) {
+    function_ = transferFunctionFor(options.colors);
+    givenObjects_ = readOpaqueObjects(options.opaque);
+    options_ = options;
+    options_.camera.orbits = options.frames.has_value();
+    annotation_ = options.annotation;
+    background_ = options.background.value_or(ownBackground(options.settings.mode));
+    keepsNumbers_ = options.output != "-" && !isFilm(options.output) && projection::holdsNumbers(options.output);
+    givenObjects_.isolines.width *= projection::samplesPerAxis(options.settings.samples);  // samples are pixels there
+}
+
+void SceneRenderer::makeLook() {
+    engine_.reset();  // what it leaves behind the next one takes
     makeScene();
+    placeCamera();
+    engine_ = projection::makeEngine(scene_, options_.engine);
+}
+
+void SceneRenderer::placeCamera() {
     record_.camera =
         cameraFor(options_.camera, scene_, parts_,
                   marginsFor(options_.annotation, annotated_, options_.camera.size.x, options_.camera.size.y),
                   options_.annotation.axes);
-    engine_ = projection::makeEngine(scene_, options_.engine);
-    record_.prepareMilliseconds = watch.milliseconds();
+}
+
+projection::Image SceneRenderer::draw(const projection::View& view, projection::FrameReport& report) const {
+    const Stopwatch watch;
+    projection::Image image = engine_->render(view, report);
+    report.frameMilliseconds = watch.milliseconds();
+    return image;
+}
+
+std::string SceneRenderer::whyEmpty(const projection::Camera& camera) const {
+    return projection::whyEmpty(scene_, parts_, camera);
 }
 
 void SceneRenderer::moveTo(std::size_t step) {
@@ -214,10 +250,8 @@ projection::Image SceneRenderer::render(double turn) {
     const projection::Camera camera =
         turn == 0.0 ? record_.camera : projection::orbited(record_.camera, 2.0 * std::numbers::pi * turn);
     projection::FrameReport report;
-    const Stopwatch watch;
-    projection::Image image = engine_->render(camera, report);
-    report.frameMilliseconds = watch.milliseconds();
-    if (projection::isEmpty(image)) record_.emptyBecause = projection::whyEmpty(scene_, parts_, camera);
+    projection::Image image = draw({camera}, report);
+    if (projection::isEmpty(image)) record_.emptyBecause = whyEmpty(camera);
     if (options_.verifiedPixels > 0) verify(image, {camera, report.maps.get()});
     report.maps.reset();  // a picture's worth of memory
     if (scene_.settings.mode == projection::Mode::Contributions) showCounts(image);

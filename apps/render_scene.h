@@ -49,9 +49,28 @@ struct RenderRecord {
 
 class SceneRenderer {
 public:
+    /// What differs between options, each with all before it.
+    enum class Change {
+        Camera,  ///< where from and how large
+        Look,    ///< all else that is drawn of the mesh
+        Mesh     ///< what is read, and how
+    };
+
     /// Reads and prepares everything that does not change from frame to frame.
     /// \throws std::runtime_error for bad input, naming file, field or option
     explicit SceneRenderer(const RenderOptions& options);
+
+    /// Goes on with other options, and makes again what `change` says. Unless the eye is given, the view is fitted
+    /// anew. After an error nothing can be drawn until a change of that kind has passed.
+    void change(const RenderOptions& options, Change change);
+
+    /// One frame that may be stopped (view.control), by a camera of any size, as engines give it.
+    /// \throws projection::FrameStopped
+    projection::Image draw(const projection::View& view, projection::FrameReport& report) const;
+    /// What draw() gave, with annotation and background, as files have it.
+    projection::Image finished(projection::Image image, const projection::Camera& camera) const;
+    /// Where the image is without anything: why, and what would mend it.
+    std::string whyEmpty(const projection::Camera& camera) const;
 
     /// The image seen after the eye has turned by `turn` (1: once round) about `up`, annotation and background
     /// included.
@@ -73,6 +92,7 @@ public:
 
     const RenderRecord& record() const { return record_; }
     const projection::Engine& engine() const { return *engine_; }
+    const projection::Scene& scene() const { return scene_; }
 
 private:
     void readStep(std::optional<double> time);
@@ -83,10 +103,11 @@ private:
     void showCounts(projection::Image& image);
     void verify(const projection::Image& image, const projection::View& view);
 
-    std::string title() const;
+    void takeLook(const RenderOptions& options);
+    void makeLook();
+    void placeCamera();
 
-    /// With annotation and background.
-    projection::Image finished(projection::Image image, const projection::Camera& camera) const;
+    std::string title() const;
 
     RenderOptions options_;
     preint::TransferFunction function_;       ///< as it is asked for, not yet fitted to a step

@@ -77,10 +77,11 @@ void readOpacity(const std::string& text, preint::FunctionWords& words) {
     }
 }
 
-/// Nothing, the name of a colour map or a file; a map's name wins over a file of that name.
+/// Nothing, the name of a colour map, a file or the text of one; a map's name wins over a file of that name.
 preint::TransferFunction loadTransferFunction(const std::string& name) {
     if (name.empty()) return projection::defaultTransferFunction();
     if (preint::isColorMap(name)) return preint::preset(name);
+    if (name.front() == '{') return preint::parseTransferFunction(name, "--tf");
     std::error_code ignored;
     if (std::filesystem::exists(name, ignored) && !std::filesystem::is_directory(name, ignored))
         return preint::readTransferFunction(name);
@@ -97,7 +98,8 @@ void addColorOptions(CLI::App& command, ColorOptions& options) {
     command.add_option(
         "--tf", options.transferFunction,
         fmt::format(
-            "transfer function file (JSON, ParaView, VisIt), or colours by name: {} or any other of matplotlib's and "
+            "transfer function file (JSON, ParaView, VisIt), JSON itself, '{{\"color\": …}}', or colours by name: {} "
+            "or any other of matplotlib's and "
             "ParaView's (`tetralux colors` lists them), in any case, with _r reversed; opacity is then suggested; "
             "default: cool-to-warm",
             fmt::join(preint::presetNames(), ", ")));

@@ -20,7 +20,7 @@ namespace tetralux::projection {
 
 namespace {
 
-/// Pixels beside a cell's rectangle in which float planes of a flat cell may be evaluated.
+/// Pixels beside a cell's rectangle in which float planes of a flat cell, or one at the eye, may be evaluated.
 constexpr int blockMargin = 16;
 
 class RepairedEngine final : public WrappedEngine {
@@ -134,7 +134,7 @@ private:
         if (contact.cells.empty() ||
             !(contact.onBoundary || scene_.settings.mode == Mode::FirstHit || scene_.settings.contributions.perCell))
             return;
-        addPixelsOf(contact.cells, 0, Uncertainty::EyeTouched, frame, pixels);
+        addPixelsOf(contact.cells, blockMargin, Uncertainty::EyeTouched, frame, pixels);
     }
 
     /// Where a cell beyond float ends is beyond float too, and engines look at whole blocks of pixels: hence a margin.

@@ -5,6 +5,7 @@ import numpy as np
 GAUSS_POINTS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(16)
 GAUSS_POINTS, GAUSS_WEIGHTS = 0.5 + 0.5 * GAUSS_POINTS, 0.5 * GAUSS_WEIGHTS
 OPAQUE = 45.0  # optical depth behind which nothing is seen in double precision
+ROUNDING = 1e-12  # of a scalar: one that is an isosurface's by definition, as in a corner where the eye stands, is not below it
 
 
 class TransferFunction:
@@ -17,7 +18,8 @@ class TransferFunction:
     def __init__(self, description):
         color = sorted(description["color"], key=lambda n: n[0])
         extinction = sorted(description["extinction"], key=lambda n: n[0])
-        self.peaks = sorted((p for p in description.get("isosurfaces", []) if p["opacity"] > 0), key=lambda p: p["value"])
+        self.peaks = sorted((dict(p, value=p["value"] - ROUNDING * abs(p["value"])) for p in description.get("isosurfaces", []) if p["opacity"] > 0),
+                            key=lambda p: p["value"])
         self.breaks = np.array(sorted({n[0] for n in color} | {n[0] for n in extinction} | {p["value"] for p in self.peaks}))
         low = np.concatenate([[-np.inf], self.breaks])
         high = np.concatenate([self.breaks, [np.inf]])

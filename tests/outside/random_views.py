@@ -113,10 +113,10 @@ def _lights(rng, mesh, look):
     words = []
     for _ in range(int(rng.integers(1, 3))):
         kind = rng.integers(4)
-        if kind == 0:
+        if kind == 0 and "head" not in look.lights:  # there is one head
             look.lights.append("head")
             words.append("--headlight")
-        elif kind == 1:
+        elif kind <= 1:
             centre, radius = mesh.bounding_sphere()
             look.point_lights.append(tuple(map(float, centre + 1.5 * radius * _direction(rng))))
             words.append("--point-light=" + triple(look.point_lights[-1]))

@@ -206,7 +206,7 @@ void addAnnotationOptions(CLI::App& command, AnnotationOptions& options) {
 }
 
 projection::Margins marginsFor(const AnnotationOptions& options, const AnnotatedScene& scene, int width, int height) {
-    projection::Margins margins = projection::evenMargins(0.02, width, height);
+    projection::Margins margins = projection::evenMargins(projection::defaultMargin, width, height);
     projection::Camera camera;
     camera.width = width;
     camera.height = height;

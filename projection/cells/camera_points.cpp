@@ -19,9 +19,9 @@ constexpr double farthestPixel = 1e9;
 }  // namespace
 
 CameraAxes cameraAxes(const CameraFrame& frame, const SceneUnits& units) {
-    const double perLength = 1.0 / units.length, pixel = glm::length(frame.perPixelRight);
-    const double across = frame.orthographic ? 1.0 / pixel : perLength / pixel;
-    return {frame.right * across, -frame.up * across, frame.forward * perLength};
+    const double perLength = 1.0 / units.length;
+    const double across = frame.orthographic ? 1.0 / frame.pixel : perLength / frame.pixel;
+    return {frame.columnAxis * across, frame.rowAxis * across, frame.forward * perLength};
 }
 
 void projectPoints(const mesh::ScalarMesh& mesh, const SceneUnits& units, const CameraFrame& frame,

@@ -14,17 +14,16 @@ namespace tetralux::projection {
 /// Pixel coordinates of a point `fromEye` (mesh units) at depth `depth` along `forward`; no sample shift is included.
 class PointPixel {
 public:
-    explicit PointPixel(const CameraFrame& frame) : frame_(frame), pixel_(glm::length(frame.perPixelRight)) {}
+    explicit PointPixel(const CameraFrame& frame) : frame_(frame) {}
 
     double depth(const glm::dvec3& fromEye) const { return glm::dot(fromEye, frame_.forward); }
     glm::dvec2 operator()(const glm::dvec3& fromEye, double depth) const {
-        return frame_.centre + glm::dvec2(glm::dot(fromEye, frame_.right), -glm::dot(fromEye, frame_.up)) /
-                                   (pixel_ * (frame_.orthographic ? 1.0 : depth));
+        return frame_.centre + glm::dvec2(glm::dot(fromEye, frame_.columnAxis), glm::dot(fromEye, frame_.rowAxis)) /
+                                   (frame_.pixel * (frame_.orthographic ? 1.0 : depth));
     }
 
 private:
     const CameraFrame& frame_;
-    const double pixel_;  // of mesh units at depth 1, or anywhere if orthographic
 };
 
 }  // namespace tetralux::projection

@@ -40,7 +40,8 @@ InverseDepthMaps inverseDepthMaps(const PixelMaps& maps, const CameraFrame& fram
     tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
         for (std::size_t x = 0; x < width; ++x) {
             const std::size_t i = y * width + x;
-            const glm::dvec2 fromAxis = glm::dvec2(static_cast<double>(x), static_cast<double>(y)) - frame.centre;
+            const glm::dvec2 fromAxis =
+                frame.squared(glm::dvec2(static_cast<double>(x), static_cast<double>(y)) - frame.centre);
             const double rayLength = frame.orthographic
                                          ? 1.0
                                          : std::sqrt(1.0 + glm::dot(frame.perPixelRight, frame.perPixelRight) *

@@ -43,11 +43,15 @@ CameraFrame cameraFrame(const Camera& camera) {
                                              whole.y));
     if (!finite(camera.eye) || !finite(camera.target) || !finite(camera.up) ||
         !std::isfinite(camera.orthographicHeight) || camera.orthographicHeight < 0 ||
-        !std::isfinite(camera.windowCentre.x) || !std::isfinite(camera.windowCentre.y))
+        !std::isfinite(camera.windowCentre.x) || !std::isfinite(camera.windowCentre.y) || !std::isfinite(camera.shear))
         throw std::runtime_error("camera: a coordinate is not a finite number; give --eye, --target and --up as x,y,z");
     if (!camera.orthographic() && !(camera.fovDegrees > 0 && camera.fovDegrees < 180))
         throw std::runtime_error(
             fmt::format("field of view {} degrees: must lie between 0 and 180; give --fov DEG", camera.fovDegrees));
+
+    if (!std::isfinite(camera.aspect) || camera.aspect < 0)
+        throw std::runtime_error(
+            fmt::format("camera: an aspect of {}; give width over height, or 0 for square pixels", camera.aspect));
 
     CameraFrame frame;
     frame.eye = camera.eye;
@@ -66,8 +70,14 @@ CameraFrame cameraFrame(const Camera& camera) {
                     0.5 * (whole.y - 1) + 0.5 * whole.y * camera.windowCentre.y - camera.tile.y};
 
     double imageHeight = frame.orthographic ? camera.orthographicHeight : 2.0 * tangentOfHalfFov(camera);
-    frame.perPixelRight = frame.right * (imageHeight / whole.y);
-    frame.perPixelDown = -frame.up * (imageHeight / whole.y);
+    const double row = imageHeight / whole.y, column = camera.aspect > 0 ? imageHeight * camera.aspect / whole.x : row;
+    frame.rowStretch = row / column;
+    frame.rowLean = -camera.shear * frame.rowStretch;
+    frame.perPixelRight = frame.right * column;
+    frame.perPixelDown = -frame.up * row + frame.rowLean * frame.perPixelRight;
+    frame.pixel = glm::length(frame.perPixelRight);
+    frame.columnAxis = frame.right + frame.up * (frame.rowLean / frame.rowStretch);
+    frame.rowAxis = -frame.up / frame.rowStretch;
     return frame;
 }
 
@@ -82,7 +92,8 @@ glm::dvec3 threeQuarterEye(const mesh::BoundingBox& bounds, const Camera& camera
     glm::dvec3 direction = glm::normalize(glm::dvec3(1.0, 0.7, 1.5));
     double radius = 0.5 * bounds.diagonal();
     if (radius == 0) radius = 1.0;
-    double aspect = std::min(1.0, static_cast<double>(camera.width) / camera.height);
+    double aspect =
+        std::min(1.0, camera.aspect > 0 ? camera.aspect : static_cast<double>(camera.width) / camera.height);
     double halfAngle = std::atan(tangentOfHalfFov(camera) * aspect);
     double distance = camera.orthographic() ? 2.0 * radius : radius / std::sin(halfAngle);
     // up along the direction of view would leave the picture without orientation: step aside

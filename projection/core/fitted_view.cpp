@@ -142,7 +142,7 @@ Camera fitted(const Camera& camera, const ViewDirection& view, std::span<const g
         rights.include(glm::dot(p, axes.right));
         ups.include(glm::dot(p, axes.up));
     }
-    const double aspect = static_cast<double>(camera.width) / camera.height;
+    const double aspect = camera.aspect > 0 ? camera.aspect : static_cast<double>(camera.width) / camera.height;
     // What is free of the picture, from −1 to 1 each way about the optical axis.
     const glm::dvec2 low = camera.windowCentre + glm::dvec2(-1.0 + 2.0 * margins.left, -1.0 + 2.0 * margins.bottom);
     const glm::dvec2 high = camera.windowCentre + glm::dvec2(1.0 - 2.0 * margins.right, 1.0 - 2.0 * margins.top);

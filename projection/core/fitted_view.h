@@ -37,9 +37,11 @@ ViewDirection turned(const ViewDirection& view, const ViewTurn& turn);
 /// The same of a camera, whose eye goes round its target.
 Camera turned(const Camera& camera, const ViewTurn& turn);
 
+inline constexpr double defaultMargin = 0.02;  ///< of views that are fitted
+
 /// Shares of the picture's width and height that stay free at its edges.
 struct Margins {
-    double left = 0.02, right = 0.02, top = 0.02, bottom = 0.02;
+    double left = defaultMargin, right = defaultMargin, top = defaultMargin, bottom = defaultMargin;
 };
 
 /// This share at every edge, but a pixel at least, and so for a tiny picture half of it for what shows.

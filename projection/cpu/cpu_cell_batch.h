@@ -233,8 +233,9 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
                 &batch.rayInverseDepthChecked[j]);
     storeFloats(depths.rayInverseDepth, &batch.rayInverseDepth[j]);
     if constexpr (gradients != GradientParts::None) {
-        const wide inverse(1.0 / frame.pixel);
-        const wide gx = cell.gradient.x * inverse, gy = cell.gradient.y * inverse, gz = cell.gradient.z;
+        const wide inverse(1.0 / frame.pixel), lean(frame.rowLean), inverseRow(1.0 / (frame.pixel * frame.rowStretch));
+        const wide gx = cell.gradient.x * inverse, gy = (cell.gradient.y - lean * cell.gradient.x) * inverseRow,
+                   gz = cell.gradient.z;
         const wide magnitude = sqrt(gx * gx + gy * gy + gz * gz);
         storeFloats(magnitude, &batch.gradient[j]);
         if constexpr (gradients == GradientParts::Magnitude) return special;

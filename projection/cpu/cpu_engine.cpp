@@ -265,7 +265,9 @@ void CpuEngine::setFrame() {
     frame_.width = frame.width;
     frame_.height = frame.height;
     frame_.centre = sampleCentre(frame);
-    frame_.pixel = glm::length(frame.perPixelRight) / (frame.orthographic ? units_.length : 1.0);
+    frame_.rowLean = frame.rowLean;
+    frame_.rowStretch = frame.rowStretch;
+    frame_.pixel = frame.pixel / (frame.orthographic ? units_.length : 1.0);
     frame_.depthReference = depthReferenceOf(mesh_.bounds, frame, units_);
     frame_.orderTolerance = static_cast<float>(orderRounding / (frame.orthographic ? 1.0 : frame_.depthReference));
     const auto& shading = scene_.settings.shading;

@@ -100,7 +100,8 @@ void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int
     batch.rayInverseDepthChecked[j] =
         static_cast<float>(depths.rayInverseDepth - frame.orderTolerance - depths.rounding);
     // in scene lengths, as (right, down, forward)
-    const double gx = cell.gradient.x / frame.pixel, gy = cell.gradient.y / frame.pixel, gz = cell.gradient.z;
+    const double gx = cell.gradient.x / frame.pixel, gz = cell.gradient.z,
+                 gy = (cell.gradient.y - frame.rowLean * cell.gradient.x) / (frame.pixel * frame.rowStretch);
     const double magnitude = std::sqrt(gx * gx + gy * gy + gz * gz), scale = magnitude > 0 ? 1.0 / magnitude : 0.0;
     batch.normal[0][j] = static_cast<float>(gx * scale);
     batch.normal[1][j] = static_cast<float>(gy * scale);

@@ -105,10 +105,11 @@ struct TileFrame {
     bool ordered;  ///< entries come front to back, so a pixel where they do not is uncertain
     bool orthographic;
     int width, height;
-    glm::dvec2 centre;      ///< sampleCentre of the camera
-    double pixel;           ///< size of a pixel at depth 1 (orthographic: in scene lengths)
-    double depthReference;  ///< scene lengths: inverse depth along rays is measured from this depth
-    float orderTolerance;   ///< of inverse depth
+    glm::dvec2 centre;           ///< sampleCentre of the camera
+    double pixel;                ///< size of a pixel at depth 1 (orthographic: in scene lengths)
+    double rowLean, rowStretch;  ///< of the camera's
+    double depthReference;       ///< scene lengths: inverse depth along rays is measured from this depth
+    float orderTolerance;        ///< of inverse depth
     const shading::ShadingSettings* shading;
     std::vector<std::array<float, 3>> lights;  ///< towards each, as (right, down, forward)
     QuickVariant variant;

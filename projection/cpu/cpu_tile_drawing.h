@@ -111,7 +111,8 @@ private:
                                         static_cast<std::size_t>(x0_ + x),
                                     i);
                 }
-                const double dx = x0_ + x - frame_.centre.x, dy = y0_ + y - frame_.centre.y;
+                const double row = y0_ + y - frame_.centre.y, dy = frame_.rowStretch * row,
+                             dx = x0_ + x - frame_.centre.x + frame_.rowLean * row;
                 px_.rayLength[i] =
                     frame_.orthographic
                         ? 1.0f
@@ -405,8 +406,8 @@ private:
     /// The rays' directions with a depth of 1 (orthographic: the rays' places), (right, down, forward).
     HWY_INLINE vec3 perDepth(int x, int y) const {
         const real pixel(frame_.pixel);
-        return {pixel * (laneX_ + real(x0_ + x - frame_.centre.x)), pixel * (laneY_ + real(y0_ + y - frame_.centre.y)),
-                real(1.0f)};
+        const real column = laneX_ + real(x0_ + x - frame_.centre.x), row = laneY_ + real(y0_ + y - frame_.centre.y);
+        return {pixel * (column + real(frame_.rowLean) * row), pixel * (real(frame_.rowStretch) * row), real(1.0f)};
     }
 
     HWY_INLINE real inverseDepthOfRay(std::size_t j, real rayInverseDepth) const {

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 #include <tbb/task_arena.h>
 
+#include <projection/core/engine_traits.h>
 #include <projection/core/perturbed_isosurfaces.h>
 #include <projection/core/scalar_range.h>
 #include <projection/core/wrapped_engine.h>
@@ -28,15 +29,14 @@ namespace {
 struct RegisteredEngine {
     const char* name;
     std::unique_ptr<Engine> (*make)(const Scene&, const EngineOptions&);
-    double perturbation;    ///< perturbed_isosurfaces.h
-    bool drawsTranslucent;  ///< whether it draws PixelMaps::translucent by itself
+    EngineTraits traits;
 };
 
 // The first one is what "auto" takes.
 constexpr std::array engines{
-    RegisteredEngine{"cpu", makeCpuEngine, floatPerturbation, false},
-    RegisteredEngine{"gl", makeGlEngine, floatPerturbation, false},
-    RegisteredEngine{"reference", makeReferenceEngine, 0.0, true},  // its ray caster sees to ties
+    RegisteredEngine{"cpu", makeCpuEngine, {}},
+    RegisteredEngine{"gl", makeGlEngine, {.fromTable = true}},
+    RegisteredEngine{"reference", makeReferenceEngine, {.perturbation = 0.0, .drawsTranslucent = true, .exact = true}},
 };
 
 /// Everything that a frame asks for in parallel runs in one arena: as many threads as were given, or as the caller's
@@ -86,11 +86,11 @@ std::unique_ptr<Engine> makeEngineHere(const Scene& wanted, const EngineOptions&
     for (const auto& engine : engines)
         if (name == engine.name) {
             const MakeEngine plain = [&](const Scene& part) {
-                auto made = withExactRepair(
-                    engine.make(engine.perturbation > 0 ? withPerturbedIsosurfaces(part, engine.perturbation) : part,
-                                options),
-                    part);
-                return engine.drawsTranslucent ? std::move(made) : withTranslucentSlices(std::move(made));
+                const EngineTraits& traits = engine.traits;
+                const Scene drawn =
+                    traits.perturbation > 0 ? withPerturbedIsosurfaces(part, traits.perturbation) : part;
+                auto made = withExactRepair(engine.make(drawn, options), part, traits);
+                return traits.drawsTranslucent ? std::move(made) : withTranslucentSlices(std::move(made));
             };
             auto drawn = isAdaptive(scene.settings) ? makeAdaptiveEngine(scene, plain) : plain(scene);
             return withSamples(withViewMaps(std::move(drawn), scene), wanted);

@@ -115,6 +115,8 @@ Camera sampledCamera(const Camera& camera, int perAxis) {
     Camera result = camera;
     result.width *= perAxis;
     result.height *= perAxis;
+    result.tile *= perAxis;
+    result.whole *= perAxis;
     return result;
 }
 

@@ -48,13 +48,20 @@ float scalarAtInverseDepth(CellRecord cell, float dx, float dy, float inverseDep
 #endif
 }
 
+#if !TETRALUX_ORTHOGRAPHIC
+// |x·right + y·down|²
+float squareAside(vec2 fromCentre) {
+    vec2 aside = vec2(fromCentre.x + rowShape.x * fromCentre.y, rowShape.y * fromCentre.y);
+    return dot(viewRight, viewRight) * dot(aside, aside);
+}
+#endif
+
 #if TETRALUX_LENGTH
 float segmentLength(CellRecord cell, vec2 inverseDepth, vec2 fromCentre) {
 #if TETRALUX_ORTHOGRAPHIC
     return segmentLengthOrthographic(cell.scale, inverseDepth.x, inverseDepth.y);
 #else
-    // |forward + x·right + y·down|, whose three vectors are orthogonal
-    float rayLength = sqrt(1.0 + dot(viewRight, viewRight) * dot(fromCentre, fromCentre));
+    float rayLength = sqrt(1.0 + squareAside(fromCentre));
     return segmentLengthPerspective(cell.scale, inverseDepth.x, inverseDepth.y, rayLength);
 #endif
 }
@@ -66,7 +73,7 @@ float distanceBeyond(CellRecord cell, float inverseDepth, vec2 fromCentre) {
 #if TETRALUX_ORTHOGRAPHIC
     return depthBeyond(cell, inverseDepth);
 #else
-    float square = dot(viewRight, viewRight) * dot(fromCentre, fromCentre), rayLength = sqrt(1.0 + square);
+    float square = squareAside(fromCentre), rayLength = sqrt(1.0 + square);
     return depthBeyond(cell, inverseDepth) * rayLength + depthReference * square / (1.0 + rayLength);
 #endif
 }

@@ -260,6 +260,7 @@ GlCellProgram::GlCellProgram(const GlFunctions& gl, const RenderSettings& settin
       viewForward_(program_.uniform("viewForward")),
       viewRight_(program_.uniform("viewRight")),
       viewDown_(program_.uniform("viewDown")),
+      rowShape_(program_.uniform("rowShape")),
       depthReference_(program_.uniform("depthReference")),
       depthOrigin_(program_.uniform("depthOrigin")),
       lightPlace_(program_.uniform("lightPlace")),
@@ -359,6 +360,7 @@ void GlCellProgram::use(const CameraFrame& frame, double depthReference) const {
     setVector(gl_, viewForward_, frame.forward);
     setVector(gl_, viewRight_, frame.perPixelRight);
     setVector(gl_, viewDown_, frame.perPixelDown);
+    gl_.Uniform2f(rowShape_, static_cast<float>(frame.rowLean), static_cast<float>(frame.rowStretch));
     gl_.Uniform1f(depthReference_, static_cast<float>(depthReference));
     gl_.Uniform1f(depthOrigin_, static_cast<float>(frame.depthOrigin));
 }

@@ -99,8 +99,8 @@ private:
 
     const GlFunctions& gl_;
     GlProgram program_;
-    GLint ndcPerPixel_, centre_, viewForward_, viewRight_, viewDown_, depthReference_, depthOrigin_, lightPlace_,
-        lightFade_;
+    GLint ndcPerPixel_, centre_, viewForward_, viewRight_, viewDown_, rowShape_, depthReference_, depthOrigin_,
+        lightPlace_, lightFade_;
 };
 
 }  // namespace tetralux::projection

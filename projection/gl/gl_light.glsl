@@ -2,6 +2,7 @@
 //
 // Light in full (shading/light_model.glsl) of a segment, with what the vertices carry for it (shading/vertex_light.h).
 
+uniform vec2 rowShape;  // rowLean, rowStretch of the camera
 uniform vec3 viewForward, viewRight, viewDown;  // world space; right and down per pixel (perspective: at depth 1)
 
 #if TETRALUX_FULL_LIGHT

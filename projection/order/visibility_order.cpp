@@ -199,8 +199,8 @@ void addUncertainPairs(const std::vector<CellPair>& wrong, const CellProjector& 
 
 bool sameView(const CameraFrame& a, const CameraFrame& b) {
     return a.eye == b.eye && a.forward == b.forward && a.right == b.right && a.up == b.up &&
-           a.perPixelRight == b.perPixelRight && a.orthographic == b.orthographic && a.width == b.width &&
-           a.height == b.height && a.sampleShift == b.sampleShift;
+           a.perPixelRight == b.perPixelRight && a.perPixelDown == b.perPixelDown && a.orthographic == b.orthographic &&
+           a.width == b.width && a.height == b.height && a.sampleShift == b.sampleShift;
 }
 
 }  // namespace

@@ -67,11 +67,11 @@ struct ReferenceRayCaster::Pass {
 
     void seePoints() {
         const mesh::ScalarMesh& mesh = *caster.scene_.mesh;
-        const double pixel = glm::length(frame.perPixelRight);
         points.resize(mesh.positions.size());
         tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
             const glm::dvec3 p = mesh.positions[i] - frame.eye;
-            points[i] = {glm::dot(p, frame.right) / pixel, -glm::dot(p, frame.up) / pixel, glm::dot(p, frame.forward)};
+            points[i] = {glm::dot(p, frame.columnAxis) / frame.pixel, glm::dot(p, frame.rowAxis) / frame.pixel,
+                         glm::dot(p, frame.forward)};
         });
     }
 
@@ -184,7 +184,7 @@ struct ReferenceRayCaster::Pass {
         PixelLimits limits = limitsAt(
             maps, static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x));
         limits.depths = depths;
-        (frame.orthographic ? limits.pixelAtEye : limits.pixelPerDistance) = glm::length(frame.perPixelRight);
+        (frame.orthographic ? limits.pixelAtEye : limits.pixelPerDistance) = frame.pixel;
         image.at(x, y) = glm::vec4(caster.colorOf(ray, limits, segments));
         segmentCount += segments.size();
         for (std::size_t i = 1; i < segments.size(); ++i)

@@ -285,7 +285,7 @@ PixelProbe Renderer::State::probe(const projection::Camera& view, int x, int y) 
             segment.tOut > segment.tIn ? (probe.distance - segment.tIn) / (segment.tOut - segment.tIn) : 0.0;
         probe.scalar = std::lerp(segment.scalarIn, segment.scalarOut, share);
         const glm::dvec3 place = ray.origin + probe.distance * ray.direction;
-        probe.position = {place.x, place.y, place.z};
+        probe.position = renderer::arrayOf(place);
     }
     return probe;
 }
@@ -364,16 +364,6 @@ void Renderer::setBoundary(std::optional<Boundary> boundary) {
     state_->changed(State::Tier::Field);
 }
 
-FittedView FittedView::named(std::string_view name) {
-    return renderer::translated([&] {
-        const projection::ViewDirection view = projection::namedView(std::string(name));
-        FittedView result;
-        result.direction = {view.forward.x, view.forward.y, view.forward.z};
-        result.up = {view.up.x, view.up.y, view.up.z};
-        return result;
-    });
-}
-
 Camera Renderer::fittedCamera(const FittedView& view, int width, int height) {
     return renderer::translated([&] {
         State& state = *state_;
@@ -386,13 +376,7 @@ Camera Renderer::fittedCamera(const FittedView& view, int width, int height) {
                             fmt::format("view: {}", projection::whyEmpty(state.scene, state.parts, {})));
             fitted = renderer::fittedSceneCamera(view, points, width, height);
         });
-        Camera camera;
-        camera.eye = {fitted.eye.x, fitted.eye.y, fitted.eye.z};
-        camera.target = {fitted.target.x, fitted.target.y, fitted.target.z};
-        camera.up = {fitted.up.x, fitted.up.y, fitted.up.z};
-        camera.fovDegrees = fitted.fovDegrees;
-        camera.orthographicHeight = fitted.orthographicHeight;
-        return camera;
+        return renderer::publicCamera(fitted);
     });
 }
 
@@ -486,20 +470,6 @@ std::string Renderer::renderer() const {
     std::string name;
     if (state_->engine) state_->run([&] { name = state_->engine->renderer(); });
     return name;
-}
-
-Camera cameraHolding(const BoundingBox& bounds, int width, int height, const Camera& like) {
-    const mesh::BoundingBox box{{bounds.low[0], bounds.low[1], bounds.low[2]},
-                                {bounds.high[0], bounds.high[1], bounds.high[2]}};
-    ImageView size;
-    size.width = std::max(1, width);
-    size.height = std::max(1, height);
-    const projection::Camera view = renderer::sceneCamera(like, size, {});
-    const glm::dvec3 target = box.centre(), eye = projection::threeQuarterEye(box, view);
-    Camera camera = like;
-    camera.target = {target.x, target.y, target.z};
-    camera.eye = {eye.x, eye.y, eye.z};
-    return camera;
 }
 
 std::vector<EngineInfo> engines() {

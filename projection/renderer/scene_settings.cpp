@@ -160,10 +160,25 @@ projection::Camera sceneCamera(const Camera& camera, const ImageView& image, con
     result.width = image.width;
     result.height = image.height;
     result.windowCentre = {camera.windowCentre[0], camera.windowCentre[1]};
+    result.aspect = camera.aspect;
+    result.shear = camera.shear;
     if (tile.wholeWidth != 0 || tile.wholeHeight != 0) {
         result.tile = {tile.left, tile.top};
         result.whole = {tile.wholeWidth, tile.wholeHeight};
     }
+    return result;
+}
+
+Camera publicCamera(const projection::Camera& camera) {
+    Camera result;
+    result.eye = arrayOf(camera.eye);
+    result.target = arrayOf(camera.target);
+    result.up = arrayOf(camera.up);
+    result.fovDegrees = camera.fovDegrees;
+    result.orthographicHeight = camera.orthographicHeight;
+    result.windowCentre = {camera.windowCentre.x, camera.windowCentre.y};
+    result.aspect = camera.aspect;
+    result.shear = camera.shear;
     return result;
 }
 

@@ -22,6 +22,10 @@ shading::ShadingSettings sceneLighting(const Lighting& lighting);
 std::vector<projection::HalfSpace> sceneCuts(const std::vector<Cut>& cuts);
 projection::OpaqueObjects sceneObjects(const std::vector<Slice>& slices, const std::vector<Surface>& surfaces);
 projection::BoundaryLook boundaryLook(const Boundary& boundary);
+inline Vector arrayOf(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+Camera publicCamera(const projection::Camera& camera);  ///< its size and tile are the caller's
 projection::Camera sceneCamera(const Camera& camera, const ImageView& image, const ImageTile& tile);
 
 /// A view of that size that holds `points` as `view` says.

@@ -231,10 +231,11 @@ double EdgeOnFaces::visiblePerLength(mesh::CellIndex cell) const {
 
 std::vector<std::uint32_t> EdgeOnFaces::pixels(const CameraFrame& frame, std::span<const mesh::CellIndex> cells) const {
     const mesh::ScalarMesh& mesh = *scene_.mesh;
-    const double pixel = glm::length(frame.perPixelRight), image = std::max(frame.width, frame.height);
+    const double pixel = frame.pixel, image = std::max(frame.width, frame.height);
     const auto see = [&](mesh::PointIndex point) {
         const glm::dvec3 p = mesh.positions[point] - frame.eye;
-        return glm::dvec3(glm::dot(p, frame.right) / pixel, -glm::dot(p, frame.up) / pixel, glm::dot(p, frame.forward));
+        return glm::dvec3(glm::dot(p, frame.columnAxis) / pixel, glm::dot(p, frame.rowAxis) / pixel,
+                          glm::dot(p, frame.forward));
     };
     const auto reachOf = [&](const std::array<glm::dvec3, 4>& corners) {
         glm::dvec2 low(image), high(-image);

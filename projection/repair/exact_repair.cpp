@@ -26,16 +26,16 @@ constexpr int blockMargin = 16;
 
 class RepairedEngine final : public WrappedEngine {
 public:
-    RepairedEngine(std::unique_ptr<Engine> engine, const Scene& scene)
+    RepairedEngine(std::unique_ptr<Engine> engine, const Scene& scene, const EngineTraits& traits)
         : WrappedEngine(std::move(engine)),
           scene_(scene),
           gathers_(gathersOf(scene.settings.mode)),
+          exact_(traits.exact),
           edgeOnFaces_(scene),
           caster_(scene) {
-        exact_ = engine_->name() == "reference";
         if (exact_) return;
         beyondFloat_ = cellsBeyondFloat(*scene.mesh, scene.transferFunction, integralOf(scene.settings.mode),
-                                        floatUse(scene.settings, engine_->name() == "gl"));
+                                        floatUse(scene.settings, traits.fromTable));
         if (gathers_ != FloatUse::Gathers::Light && gathers_ != FloatUse::Gathers::Crossings) return;
         if (!scene.transferFunction.isosurfaces.empty()) outlines_.emplace(scene);
     }
@@ -156,7 +156,7 @@ private:
 
     Scene scene_;
     const FloatUse::Gathers gathers_;
-    bool exact_ = false;  // the engine is the reference
+    const bool exact_;
     std::vector<mesh::CellIndex> beyondFloat_;
     std::optional<IsosurfaceOutlines> outlines_;
     const EdgeOnFaces edgeOnFaces_;
@@ -165,8 +165,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Engine> withExactRepair(std::unique_ptr<Engine> engine, const Scene& scene) {
-    return std::make_unique<RepairedEngine>(std::move(engine), scene);
+std::unique_ptr<Engine> withExactRepair(std::unique_ptr<Engine> engine, const Scene& scene,
+                                        const EngineTraits& traits) {
+    return std::make_unique<RepairedEngine>(std::move(engine), scene, traits);
 }
 
 }  // namespace tetralux::projection

@@ -44,6 +44,16 @@ struct Camera {
     /// Where the picture's middle lies beside the optical axis, in half widths to the right and half heights up, as
     /// VTK's window centre has it. For stereo pairs and walls of displays.
     std::array<double, 2> windowCentre{0, 0};
+    double aspect = 0;  ///< the whole picture's width over its height, as lengths; 0: that of square pixels
+    double shear = 0;   ///< by how much the picture's top lies farther right than its middle, in half heights
+
+    /// The camera of a host's 4×4 matrix, row after row, from column vectors (x, y, z, 1) in mesh units to clip
+    /// coordinates, projection · view: the picture spans −1 … 1 in x/w (to the right) and y/w (up). Off-centre, sheared
+    /// and stretched views are taken, perspective or parallel. Perspective: what has w > 0 is seen. Parallel: z/w grows
+    /// away from the eye, whose plane, across the rays, touches the picture's rectangle in the plane z/w = −1. No other
+    /// use is made of z: depths are limited by Control. \throws Error (BadInput) if a number is not finite, the matrix
+    /// makes no picture, or its picture is mirrored (then turn the sign of its second row, and the rows of the image).
+    static Camera fromMatrix(const std::array<double, 16>& clipFromWorld);
 };
 
 /// A view that Renderer::fittedCamera fits to what shows.
@@ -64,8 +74,8 @@ struct FittedView {
     static FittedView named(std::string_view name);
 };
 
-/// A three-quarter view that holds the whole box, for a picture of that shape; field of view, height and up are those
-/// of `like`.
+/// A three-quarter view that holds the whole box, and holds it too when the eye goes round its middle, for a picture of
+/// that shape; field of view, height, up and window are those of `like`. Renderer::fittedCamera comes nearer.
 Camera cameraHolding(const BoundingBox& bounds, int width, int height, const Camera& like = {});
 
 /// The caller's memory: linear RGBA, premultiplied by alpha, over nothing; the top row first.

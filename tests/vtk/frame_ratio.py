@@ -51,7 +51,7 @@ def main():
             start = time.perf_counter()
             made.window.Render()
             first = time.perf_counter() - start
-            if first > 60:
+            if first > 8:
                 print(f"  {mapper.__name__}: the first frame alone takes {first:.0f} s", flush=True)
                 continue
             other = statistics.median(frames(made, 3 if first > 3 else 7)[0])

@@ -149,7 +149,7 @@ class Frames(unittest.TestCase):
     def test_messages(self):
         points, cells = tetrahedra(2)
         for fault, word in (("scalars", "no scalars"), ("cells", "no cells"), ("engine", "no engine"), ("components", "components"),
-                            ("function", "has no points"), ("stretch", "square pixels")):  # fmt: skip
+                            ("function", "has no points"), ("mirror", "mirrors")):  # fmt: skip
             with self.subTest(fault):
                 vectors = {"v": np.ones((len(points), 2))}
                 data = vectors if fault == "components" else {} if fault == "scalars" else {"w": wave(points)}
@@ -163,10 +163,10 @@ class Frames(unittest.TestCase):
                     scene.property.IndependentComponentsOff()
                 if fault == "function":
                     scene.opacities.RemoveAllPoints()
-                if fault == "stretch":
-                    stretch = vtkTransform()
-                    stretch.Scale(1, 2, 1)
-                    scene.camera.SetUserTransform(stretch)
+                if fault == "mirror":
+                    mirror = vtkTransform()
+                    mirror.Scale(-1, 1, 1)
+                    scene.camera.SetUserTransform(mirror)
                 told = []
                 tag = scene.mapper.AddObserver("ErrorEvent", lambda *_: told.append("error"))
                 scene.window.Render()

@@ -271,7 +271,7 @@ class Pictures(unittest.TestCase):
         scene.look((3, 1, 2), height=3)
         self.check(scene)
         scene.look((5, 0, 0), height=2.5)  # along an axis
-        self.check(scene)
+        self.check(scene, tolerance=2e-6)  # the program's eye stands elsewhere on the rays: floats round otherwise
 
 
 if __name__ == "__main__":

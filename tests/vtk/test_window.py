@@ -167,6 +167,20 @@ class Windows(unittest.TestCase):
         scene.camera.SetUserViewTransform(turn)
         self.assertEqual(self.mask_differs(scene), 0)
 
+    def test_stretched_and_sheared_views(self):
+        for height in (None, 3.5):
+            for change in ("stretch", "shear"):
+                with self.subTest(change=change, height=height):
+                    scene = Scene(box_grid(3), size=(200, 150))
+                    scene.look((3.1, 2.2, 4.3), height=height)
+                    if change == "stretch":
+                        stretch = vtkTransform()
+                        stretch.Scale(1, 0.6, 1)
+                        scene.camera.SetUserTransform(stretch)
+                    else:
+                        scene.camera.SetViewShear(0.2, 0.1, 1)
+                    self.assertEqual(self.mask_differs(scene), 0)
+
     def test_horizontal_angle(self):
         scene = Scene(box_grid(3), size=(200, 150))
         scene.camera.UseHorizontalViewAngleOn()

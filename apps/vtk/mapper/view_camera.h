@@ -24,8 +24,7 @@ struct WindowView {
     std::array<double, 16> worldFromClip{};  ///< rows of the matrix; clip coordinates from −1 to 1, depth too
 };
 
-/// The renderer's camera as its matrices have it, stereo, shear and tiles included. \throws Error for what no camera of
-/// Tetralux's sees.
+/// The renderer's camera as its matrices have it, stereo, shear and tiles included. \throws Error for one that mirrors.
 WindowView viewOf(vtkRenderer& renderer);
 
 /// Distances along the rays, top row first, of what the depths, bottom row first, say; infinite where they are 1.

@@ -239,7 +239,7 @@ void vtkTetraluxMapper::Draw(vtkRenderer* renderer, vtkVolume* volume) {
         this->UpdateProgress(share);
         if (window->CheckAbortStatus() || this->GetAbortExecute()) stop.request_stop();
     };
-    constexpr double secondsOfStill = 100;  // a window at rest allows hours
+    constexpr double secondsOfStill = 5;  // a window at rest allows hours, a render pass that allots nothing ten
     if (volume->GetAllocatedRenderTime() < secondsOfStill)
         control.budgetMilliseconds = 1000 * volume->GetAllocatedRenderTime();
     control.depthLimit = limits.empty() ? nullptr : limits.data();

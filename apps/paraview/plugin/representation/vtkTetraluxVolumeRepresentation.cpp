@@ -107,9 +107,16 @@ int vtkTetraluxVolumeRepresentation::ProcessViewRequest(vtkInformationRequestKey
     } else if (request == vtkPVView::REQUEST_RENDER()) {
         this->Error->SetVisibility(this->GetVisibility() && this->Verify > 0);
         this->Actor->SetEnableLOD(0);  // while moving a coarser picture of the volume, no surface
+        this->AllotTime(in);
         this->CutAtBox(in);
     }
     return 1;
+}
+
+/// Passes that compose pictures of several processes allot none.
+void vtkTetraluxVolumeRepresentation::AllotTime(vtkInformation* in) {
+    constexpr double moving = 0.2, atRest = 1e4;  // seconds
+    this->Actor->SetAllocatedRenderTime(in->Has(vtkPVRenderView::USE_LOD()) ? moving : atRest, this->Renderer);
 }
 
 void vtkTetraluxVolumeRepresentation::CutAtBox(vtkInformation* in) {

@@ -59,6 +59,7 @@ private:
   vtkTetraluxVolumeRepresentation(const vtkTetraluxVolumeRepresentation&) = delete;
   void operator=(const vtkTetraluxVolumeRepresentation&) = delete;
 
+  void AllotTime(vtkInformation* in);
   void CutAtBox(vtkInformation* in);
   void TellError();
 

@@ -175,6 +175,7 @@ void vtkTetraluxMapper::PrintSelf(ostream& os, vtkIndent indent) {
 
 void vtkTetraluxMapper::Render(vtkRenderer* renderer, vtkVolume* volume) {
     if (renderer->GetSelector() != nullptr || this->GetInput() == nullptr) return;  // no colours into a selection
+    if (const int* size = renderer->GetSize(); size[0] < 1 || size[1] < 1) return;
     this->InvokeEvent(vtkCommand::StartEvent, nullptr);
     const double start = vtkTimerLog::GetUniversalTime();
     try {

@@ -12,8 +12,8 @@
  * extinction o/d; with OpacityIsAlpha it is the opacity of a piece of length d, the extinction −ln(1 − o)/d.
  * Gradient opacity is not looked at, as in those mappers; dependent components are refused with an error.
  *
- * The mapper's clipping planes, the volume's matrix and every camera of VTK that does not mirror count, but not the near
- * plane of a perspective view: all that lies before the eye is drawn. When a frame is interactive
+ * The mapper's clipping planes, the volume's matrix and every camera of VTK that does not mirror count, but not the
+ * near plane of a perspective view: all that lies before the eye is drawn. When a frame is interactive
  * (vtkProp::GetAllocatedRenderTime below 5 s) and would take longer than it may, it is coarser. A render window's
  * AbortCheckEvent stops a frame, which then shows no volume.
  */

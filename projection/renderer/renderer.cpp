@@ -255,15 +255,15 @@ projection::Camera Renderer::State::withinBudget(const projection::Camera& view,
 /// The whole picture; within a budget fewer pixels of it, enlarged.
 projection::Image Renderer::State::draw(const projection::Camera& view, const Control& control,
                                         const projection::FrameControl& waiting, projection::FrameReport& report) {
-    const projection::Camera drawn = withinBudget(view, control.budgetMilliseconds);
-    const auto limits = limitsOf(control, drawn, view);
+    const projection::Camera coarse = withinBudget(view, control.budgetMilliseconds);
+    const auto limits = limitsOf(control, coarse, view);
     const auto start = Clock::now();
-    projection::Image image = engine->render({drawn, limits ? &*limits : nullptr, &waiting}, report);
-    cost.add(static_cast<double>(drawn.width) * drawn.height, millisecondsSince(start));
+    projection::Image image = engine->render({coarse, limits ? &*limits : nullptr, &waiting}, report);
+    cost.add(static_cast<double>(coarse.width) * coarse.height, millisecondsSince(start));
     maps = report.maps ? report.maps : limits ? std::make_shared<const projection::PixelMaps>(*limits) : nullptr;
-    report.drawnWidth = drawn.width;
-    report.drawnHeight = drawn.height;
-    if (drawn.width == view.width && drawn.height == view.height) return image;
+    report.drawnWidth = coarse.width;
+    report.drawnHeight = coarse.height;
+    if (coarse.width == view.width && coarse.height == view.height) return image;
     return projection::resized(image, view.width, view.height);
 }
 

@@ -56,7 +56,7 @@ std::vector<std::string> OptionWords::arguments() const {
 
 std::string OptionWords::commandLine(const std::string& output) const {
     std::string line = "tetralux render";
-    for (const std::string& word : arguments()) line += " " + shellQuoted(word);
+    for (const std::string& word : arguments()) (line += ' ') += shellQuoted(word);
     return line + " -o " + shellQuoted(output);
 }
 

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
 
 #include <projection/core/gathered.h>
+#include <projection/order/grid_heights.h>
 
 namespace tetralux::projection {
 
@@ -114,15 +117,37 @@ void satisfy(const FaceCondition& condition, std::vector<double>& heights) {
 
 }  // namespace
 
-PowerOrder::PowerOrder(const mesh::ScalarMesh& mesh, const mesh::Adjacency& adjacency)
-    : heights_(mesh.positions.size()) {
-    const Conditions conditions(mesh, adjacency);
-    for (const mesh::Tetrahedron& cell : mesh.cells)
-        for (mesh::PointIndex p : cell) {
-            const glm::dvec3 x = conditions.scaled(p);
-            heights_[p] = glm::dot(x, x);
+namespace {
+
+/// Of a grid, the heights that it has by construction if they hold at every face; else |x|², for a start.
+struct FirstHeights {
+    std::vector<double> heights;
+    std::vector<std::size_t> failing;
+
+    FirstHeights(const mesh::ScalarMesh& mesh, const Conditions& conditions) {
+        std::vector<glm::dvec3> points(mesh.positions.size());
+        for (std::size_t p = 0; p < points.size(); ++p) points[p] = conditions.scaled(static_cast<mesh::PointIndex>(p));
+        if (!mesh.cells.empty()) {
+            if (std::optional<std::vector<double>> ofGrid = gridHeights(points, mesh.cells[0])) {
+                failing = conditions.failing(*ofGrid);
+                if (failing.empty()) {
+                    heights = std::move(*ofGrid);
+                    return;
+                }
+            }
         }
-    std::vector<std::size_t> failing = conditions.failing(heights_);
+        for (const glm::dvec3& x : points) heights.push_back(glm::dot(x, x));
+        failing = conditions.failing(heights);
+    }
+};
+
+}  // namespace
+
+PowerOrder::PowerOrder(const mesh::ScalarMesh& mesh, const mesh::Adjacency& adjacency) {
+    const Conditions conditions(mesh, adjacency);
+    FirstHeights first(mesh, conditions);
+    heights_ = std::move(first.heights);
+    std::vector<std::size_t> failing = std::move(first.failing);
     for (int round = 0; round < mostRounds && !failing.empty(); ++round) {
         for (std::size_t face : failing) satisfy(conditions.at(face), heights_);
         const std::size_t before = failing.size();

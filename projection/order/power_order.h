@@ -9,8 +9,9 @@
 /// power to the circumsphere). So sorting any subset of the cells by it is exactly their visibility order, from every
 /// eye.
 ///
-/// Heights start at |x|² and are moved by relaxation (Agmon; Motzkin & Schoenberg 1954) until every inner face is
-/// convex, which settles cospherical points (every grid) and mildly non-Delaunay meshes. What is left over is counted.
+/// A grid of boxes has such heights by construction (grid_heights.h). Elsewhere they start at |x|² and are moved by
+/// relaxation (Agmon; Motzkin & Schoenberg 1954) until every inner face is convex, which settles other cospherical
+/// points and mildly non-Delaunay meshes. What is left over is counted.
 #pragma once
 
 #include <cstdint>

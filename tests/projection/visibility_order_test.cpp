@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Orders against what rays of the reference meet, and the proof that power order rests on.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -14,6 +15,7 @@
 #include <projection/cells/edge_on_planes.h>
 #include <projection/frame/engine_registry.h>
 #include <projection/order/boundary_reentry.h>
+#include <projection/order/grid_heights.h>
 #include <projection/order/incremental_sort.h>
 #include <projection/order/key_sort.h>
 #include <projection/order/power_order.h>
@@ -35,9 +37,10 @@ struct OrderCheck {
     int pairs = 0, wrong = 0;
 };
 
-/// Neighbouring segments of every ray, in pixels that are not uncertain.
+/// Neighbouring segments of every ray, in pixels that are not uncertain. Segments shorter than `leastLength` may be
+/// rounding, where the ray runs through an edge or within a face: they are not looked at.
 OrderCheck checkAgainstRays(const mesh::ScalarMesh& m, const Camera& camera, const std::vector<mesh::CellIndex>& order,
-                            const std::vector<std::uint32_t>& uncertain = {}) {
+                            const std::vector<std::uint32_t>& uncertain = {}, double leastLength = 0) {
     std::vector<std::uint32_t> rank(m.cells.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) rank[order[i]] = i;
     const ReferenceRayCaster caster(sceneOf(m, constantFunction(1)));
@@ -47,7 +50,8 @@ OrderCheck checkAgainstRays(const mesh::ScalarMesh& m, const Camera& camera, con
             if (std::binary_search(uncertain.begin(), uncertain.end(),
                                    static_cast<std::uint32_t>(y * camera.width + x)))
                 continue;
-            const auto segments = caster.segmentsAt(camera, x, y);
+            auto segments = caster.segmentsAt(camera, x, y);
+            std::erase_if(segments, [&](const RaySegment& s) { return s.tOut - s.tIn < leastLength; });
             for (std::size_t i = 1; i < segments.size(); ++i) {
                 ++check.pairs;
                 check.wrong += rank[segments[i].cell] < rank[segments[i - 1].cell] ? 1 : 0;
@@ -326,6 +330,81 @@ TEST(PowerOrder, SettlesTheCosphericalCellsOfAGrid) {
         EXPECT_GT(check.pairs, 500);
         EXPECT_EQ(check.wrong, 0);
     }
+}
+
+/// A grid of random lines, lengths of boxes in it up to `ratio` apart, each box cut into six tetrahedra about the
+/// diagonal from its lowest number; where `flipped`, numbers fall along the axis.
+mesh::ScalarMesh gradedGrid(const std::array<int, 3>& boxes, double ratio, unsigned seed,
+                            const std::array<bool, 3>& flipped = {false, false, false}) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> power(0, std::log(ratio));
+    std::array<std::vector<double>, 3> lines;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::vector<double>& x = lines[axis];
+        x.push_back(0);
+        for (int i = 0; i < boxes[axis]; ++i) x.push_back(x.back() + std::exp(power(random)));
+        for (double& v : x) v /= x.back();
+        if (flipped[axis]) std::reverse(x.begin(), x.end());
+    }
+    mesh::ScalarMesh m;
+    for (double z : lines[2])
+        for (double y : lines[1])
+            for (double x : lines[0]) {
+                m.positions.push_back({x, y, z});
+                m.scalars.push_back(x + y * z);
+            }
+    const auto number = [&](int i, int j, int k) {
+        return static_cast<mesh::PointIndex>(i + (boxes[0] + 1) * (j + (boxes[1] + 1) * k));
+    };
+    for (int k = 0; k < boxes[2]; ++k)
+        for (int j = 0; j < boxes[1]; ++j)
+            for (int i = 0; i < boxes[0]; ++i) {
+                std::array<int, 3> axes{0, 1, 2};
+                do {
+                    std::array<int, 3> at{i, j, k};
+                    mesh::Tetrahedron cell{number(i, j, k), 0, 0, 0};
+                    for (std::size_t step = 0; step < 3; ++step) {
+                        ++at[static_cast<std::size_t>(axes[step])];
+                        cell[step + 1] = number(at[0], at[1], at[2]);
+                    }
+                    const glm::dvec3 a = m.positions[cell[0]];
+                    if (glm::dot(m.positions[cell[1]] - a,
+                                 glm::cross(m.positions[cell[2]] - a, m.positions[cell[3]] - a)) < 0)
+                        std::swap(cell[2], cell[3]);
+                    m.cells.push_back(cell);
+                } while (std::next_permutation(axes.begin(), axes.end()));
+            }
+    return finished(std::move(m));
+}
+
+TEST(PowerOrder, HasHeightsOfGradedGridsByConstruction) {
+    const std::array<std::array<int, 3>, 3> sizes{{{5, 7, 4}, {12, 3, 9}, {24, 16, 20}}};
+    for (const auto& boxes : sizes)
+        for (double ratio : {1.0, 6.0, 100.0})
+            for (const std::array<bool, 3>& flipped :
+                 {std::array<bool, 3>{false, false, false}, {true, false, false}, {false, true, true}}) {
+                SCOPED_TRACE(testing::Message() << boxes[0] << " boxes along x, ratio " << ratio << ", flipped "
+                                                << flipped[0] << flipped[1] << flipped[2]);
+                const mesh::ScalarMesh m = gradedGrid(boxes, ratio, 7, flipped);
+                const PowerOrder power(m, mesh::buildAdjacency(m.cells, m.positions.size()));
+                EXPECT_EQ(power.failingFaces(), 0u);
+                if (boxes[0] == 24) continue;  // its rays take long
+                for (const Camera& camera : views()) {
+                    const OrderCheck check = checkAgainstRays(m, camera, powerSorted(m, power, camera), {}, 1e-12);
+                    EXPECT_GT(check.pairs, 300);
+                    EXPECT_EQ(check.wrong, 0);
+                }
+            }
+}
+
+TEST(GridHeights, AreOfGridsAlone) {
+    mesh::ScalarMesh m = gradedGrid({4, 5, 6}, 5, 3);
+    std::vector<glm::dvec3> points(m.positions.begin(), m.positions.end());
+    EXPECT_TRUE(gridHeights(points, m.cells[0]));
+    points[37].x += 1e-9;
+    EXPECT_FALSE(gridHeights(points, m.cells[0])) << "a point off the lines";
+    const mesh::ScalarMesh five = boxMesh(4, plain);
+    EXPECT_FALSE(gridHeights({five.positions.begin(), five.positions.end()}, five.cells[0])) << "another cut of boxes";
 }
 
 TEST(PowerOrder, OrdersJitteredGridsWheneverItSaysSo) {

@@ -130,7 +130,8 @@ bool drawSegment(CellRecord cell, vec2 pixel, float dx, float dy, vec2 inverseDe
 #endif
     vec4 perOpacity = shadedSegment(front, back, len, side, view, normalAndMagnitude, cutNormal);
 #if TETRALUX_MODE == TETRALUX_MODE_FIRST_HIT
-    if (!segmentShows(front, back)) return false;
+    // what gradient opacity or vertices leave nothing of is not met either
+    if (!(perOpacity.a > 0.0) || !meetsOpacity(front, back)) return false;
 #if !TETRALUX_ORTHOGRAPHIC
     // an eye on a vertex or an edge: that a cell ends right there is for rounding to say
     const float atEye = 1e6, faint = 1e-4;

@@ -11,9 +11,16 @@ uniform vec3 lights[TETRALUX_LIGHTS];     // towards each, unit, world space
 uniform float ambient, exponent, transmission;
 #endif
 
-// Whether α > 0. The table, which interpolates, cannot tell: it blurs the ends of the support.
-bool segmentShows(float front, float back) {
+// Whether the segment meets anything with opacity. A table, which interpolates, cannot tell: it blurs the ends of the
+// support. A sample meets what stands at the segment's middle; with pre-classification scalars say nothing of it.
+bool meetsOpacity(float front, float back) {
+#if TETRALUX_SAMPLED && TETRALUX_SAMPLE_AT >= 0
+    return true;
+#endif
     float low = min(front, back), high = max(front, back);
+#if TETRALUX_SAMPLED
+    low = high = 0.5 * (front + back);
+#endif
     bool shows = false;
 #if TETRALUX_SUPPORTS
     for (int i = 0; i < TETRALUX_SUPPORTS; ++i) {
@@ -22,7 +29,7 @@ bool segmentShows(float front, float back) {
 #endif
 #if TETRALUX_DISCONTINUITIES
     for (int i = 0; i < TETRALUX_DISCONTINUITIES; ++i) {
-        shows = shows || (discontinuityLayer[i].w > 0.0 && crossesValue(front, back, discontinuityValue[i]));
+        shows = shows || (discontinuityLayer[i].w > 0.0 && crossesValue(low, high, discontinuityValue[i]));
     }
 #endif
     return shows;

@@ -20,7 +20,7 @@ namespace tetralux::projection {
 
 namespace {
 
-/// Pixels beside a cell's rectangle in which float planes of a flat cell, or one at the eye, may be evaluated.
+/// Pixels beside a cell's rectangle in which engines may evaluate its planes in float.
 constexpr int blockMargin = 16;
 
 class RepairedEngine final : public WrappedEngine {
@@ -119,7 +119,7 @@ private:
             if (!frame.orthographic) addEyeContact(frame, pixels);
         }
         if (outlines_) pixels.add(Uncertainty::Outline, outlines_->pixels(frame));
-        if (!beyondFloat_.empty()) addPixelsOf(beyondFloat_, blockMargin, Uncertainty::BeyondFloat, frame, pixels);
+        if (!beyondFloat_.empty()) addPixelsOf(beyondFloat_, Uncertainty::BeyondFloat, frame, pixels);
         if (!report.floatSamples) return pixels;
         frame.sampleShift = *report.floatSamples;
         if (outlines_) pixels.add(Uncertainty::Outline, perturbedPixels(scene_, frame));
@@ -134,18 +134,18 @@ private:
         if (contact.cells.empty() ||
             !(contact.onBoundary || scene_.settings.mode == Mode::FirstHit || scene_.settings.contributions.perCell))
             return;
-        addPixelsOf(contact.cells, blockMargin, Uncertainty::EyeTouched, frame, pixels);
+        addPixelsOf(contact.cells, Uncertainty::EyeTouched, frame, pixels);
     }
 
-    /// Where a cell beyond float ends is beyond float too, and engines look at whole blocks of pixels: hence a margin.
-    void addPixelsOf(const std::vector<mesh::CellIndex>& cells, int margin, Uncertainty reason,
-                     const CameraFrame& frame, UncertainPixels& pixels) const {
+    /// Where such cells end is for rounding to say too, and engines look at whole blocks of pixels: hence a margin.
+    void addPixelsOf(const std::vector<mesh::CellIndex>& cells, Uncertainty reason, const CameraFrame& frame,
+                     UncertainPixels& pixels) const {
         const CellProjector projector(*scene_.mesh, sceneUnits(*scene_.mesh), frame);
         for (mesh::CellIndex cell : cells) {
             PixelRect rect;
             if (projector.bounds(cell, rect) == SkipReason::OutsideView) continue;
-            const int x0 = std::max(0, rect.x0 - margin), x1 = std::min(frame.width, rect.x1 + margin);
-            for (int y = std::max(0, rect.y0 - margin); y < std::min(frame.height, rect.y1 + margin); ++y)
+            const int x0 = std::max(0, rect.x0 - blockMargin), x1 = std::min(frame.width, rect.x1 + blockMargin);
+            for (int y = std::max(0, rect.y0 - blockMargin); y < std::min(frame.height, rect.y1 + blockMargin); ++y)
                 for (int x = x0; x < x1; ++x)
                     pixels.mark(reason, static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(frame.width) +
                                             static_cast<std::uint32_t>(x));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What gl does of which it cannot be sure: tables that miss their error, an order that is none.
+// What gl does of which it cannot be sure: tables that miss their error, what has opacity, an order that is none.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -75,6 +75,36 @@ TEST(GlWalk, PiecesEndWhereZonesDo) {
     EXPECT_EQ(glm::vec3(pieces.texels[1]), glm::vec3(0.25f, 0.5f, 3.0f));
     EXPECT_EQ(glm::vec3(pieces.texels[3]), glm::vec3(1, 0, 0)) << "colour at the low end of the first";
     EXPECT_EQ(glm::vec3(pieces.texels[8]), glm::vec3(0, 0, 1)) << "colour at the high end of the last";
+}
+
+/// Pixels in which one picture shows something and the other nothing.
+std::size_t shownInOne(const Image& a, const Image& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) count += (a.pixels[i].w > 0) != (b.pixels[i].w > 0) ? 1 : 0;
+    return count;
+}
+
+TEST(GlFirstHit, SamplesBesidePeaksAreNothing) {
+    Scene scene = sceneOf(jitteredBoxMesh(4, 0.2, 5, waves), roughFunction(2, 1.0), Mode::FirstHit);
+    scene.transferFunction.extinction = {{0.4, 0.0}, {0.45, 5.0}, {0.5, 0.0}};
+    scene.transferFunction.isosurfaces = {{0.7, 0.5, {1, 0, 0}}};
+    for (const Classification kind : {Classification::Post, Classification::PostLinear, Classification::Pre}) {
+        scene.settings.classification = kind;
+        const Camera camera = cameraAt({1.9, 1.4, 2.3}, glm::dvec3(0.5), 24, 20);
+        EXPECT_EQ(shownInOne(pictureOf(scene, camera, {"gl", "auto"}), referenceThatShows(scene, camera)), 0u)
+            << static_cast<int>(kind);
+    }
+}
+
+TEST(GlFirstHit, WithGradientOpacityPlateausAreNothing) {
+    const auto half = [](const glm::dvec3& p) { return std::max(p.x, 0.5); };
+    for (const int size : {0, 64}) {  // the table walked and interpolated
+        Scene scene = sceneOf(boxMesh(5, half), constantFunction(1.0), Mode::FirstHit);
+        scene.settings.shading.gradientOpacity = 1.0;
+        scene.settings.table.size = size;
+        const Camera camera = cameraAt({0.3, 0.4, 4.0}, glm::dvec3(0.5), 24, 20);
+        EXPECT_EQ(shownInOne(pictureOf(scene, camera, {"gl", "auto"}), referenceThatShows(scene, camera)), 0u) << size;
+    }
 }
 
 TEST(GlCentroidOrder, WhatItSpoilsIsCounted) {

@@ -126,6 +126,22 @@ TEST(OrderFreeModes, SpendNoTimeInSorting) {
     }
 }
 
+TEST(OrderFreeModes, BesideCellsAtTheEyeIsNothing) {
+    const auto oblique = [](const glm::dvec3& p) { return p.x - 0.7 * p.y + 0.4 * p.z; };
+    const glm::dvec3 corner(0.13, 0.27, 0.31);
+    const mesh::ScalarMesh box = boxMesh(4, oblique, corner, {1.21, 0.93, 1.37});
+    const Camera camera = cameraAt(corner, corner + glm::dvec3(1.0, 0.8, 0.1), 44, 37);  // with the box on one side
+    EngineOptions tiles{"gl", "auto"};
+    tiles.glPath = "tiles";
+    for (const Mode mode : {Mode::Mip, Mode::Minimum, Mode::Average}) {
+        const Scene scene = sceneOf(box, smoothFunction(box.scalarMin, box.scalarMax), mode);
+        const Image exact = referenceThatShows(scene, camera);
+        for (const EngineOptions& options : {EngineOptions{"cpu", "auto"}, EngineOptions{"gl", "auto"}, tiles})
+            EXPECT_LE(compareImages(pictureOf(scene, camera, options), exact).max, 1e-4)
+                << modes.at(mode) << ' ' << options.engine << ' ' << options.glPath;
+    }
+}
+
 class Integrals : public testing::TestWithParam<Mode> {};
 INSTANTIATE_TEST_SUITE_P(Both, Integrals, testing::Values(Mode::Standard, Mode::ScaleInvariant),
                          [](const auto& suite) { return modes.at(suite.param); });

@@ -147,7 +147,8 @@ std::array<double, 4> CellProjector::eyeCoordinates(mesh::CellIndex cell) const 
     const double size = std::abs(sorted.forms.determinant) * (frame_.orthographic ? units_.length : 1.0);
     std::array<double, 4> coordinates;
     for (std::size_t place = 0; place < 4; ++place)
-        coordinates[sorted.order[place]] = (sorted.odd ? -1 : 1) * sorted.forms.eye[place] / size;
+        coordinates[sorted.order[place]] =
+            (sorted.odd ? -1 : 1) * single_cell::eyeBesideFace(sorted.forms, static_cast<int>(place)) / size;
     return coordinates;
 }
 

@@ -99,7 +99,7 @@ public:
     bool faceIsFront(mesh::CellIndex cell, int face) const { return eyeSide(cell, face) < 0; }
 
     /// Barycentric coordinates λ_k of the eye in the cell (orthographic: rates of λ_k towards the eye, per mesh
-    /// length): what PowerOrder's keys weight the heights by.
+    /// length), never quite 0: times the distance from plane k of the record they give λ_k.
     std::array<double, 4> eyeCoordinates(mesh::CellIndex cell) const;
 
     CellGradient gradient(mesh::CellIndex cell) const { return unitGradient(mesh_, units_, cell); }

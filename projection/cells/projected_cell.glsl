@@ -51,6 +51,13 @@ TETRALUX_CELL_FUNCTION CellForms cellForms(TETRALUX_CELL_IN(Triple) a, TETRALUX_
     return forms;
 }
 
+// eye[k], not quite 0 where face k is seen edge-on: its plane, which is divided by that, stays finite, and what
+// multiplies the plane by it again still finds λ_k.
+TETRALUX_CELL_FUNCTION wide eyeBesideFace(TETRALUX_CELL_IN(CellForms) forms, int k) {
+    wide least = abs(forms.determinant) * wide(leastEyeCoordinate) + wide(leastDeterminant);
+    return copySign(max(abs(forms.eye[k]), least), forms.eye[k]);
+}
+
 // Where a cell's numbers refer to: image position (pixels from the optical axis) and depth.
 struct CellReference {
     wide imageX, imageY, depth, perDepth;  // perDepth = 1/depth
@@ -115,11 +122,10 @@ TETRALUX_CELL_FUNCTION ProjectedCell projectCell(TETRALUX_CELL_IN(CellForms) for
     wide size = abs(forms.determinant);
     wide lateral = orthographic ? wide(1.0) : reference.depth;
     wide inverseDepthToDepth = orthographic ? abs(reference.depth) : reference.depth;
-    wide leastEye = size * wide(leastEyeCoordinate) + wide(leastDeterminant);
     wide bound = wide(largestPlane);
     wide eye[4];
     wide inverse[4];
-    for (int k = 0; k < 4; ++k) eye[k] = copySign(max(abs(forms.eye[k]), leastEye), forms.eye[k]);
+    for (int k = 0; k < 4; ++k) eye[k] = eyeBesideFace(forms, k);
     for (int k = 0; k < 4; k += 2) {  // one division for two
         wide both = wide(-1.0) / (eye[k] * eye[k + 1]);
         inverse[k] = both * eye[k + 1];

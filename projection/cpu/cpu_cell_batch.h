@@ -247,7 +247,7 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
             wide perDeterminant = wide(1.0) / forms.determinant;
             if constexpr (Orthographic) perDeterminant = perDeterminant * abs(reference.depth);
             for (std::size_t k = 0; k < 4; ++k) {
-                storeFloats(forms.eye[k] * perDeterminant, &batch.eyeWeight[k][j]);
+                storeFloats(eyeBesideFace(forms, static_cast<int>(k)) * perDeterminant, &batch.eyeWeight[k][j]);
                 hn::StoreU(hn::LoadU(HalfIntTag(), &corners.point[k][j]), HalfIntTag(), &batch.corner[k][j]);
             }
         }

@@ -108,7 +108,7 @@ void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int
     batch.normal[2][j] = static_cast<float>(gz * scale);
     batch.gradient[j] = static_cast<float>(magnitude);
     for (std::size_t k = 0; k < 4; ++k) {
-        batch.eyeWeight[k][j] = static_cast<float>(forms.eye[k] / forms.determinant);
+        batch.eyeWeight[k][j] = static_cast<float>(eyeBesideFace(forms, static_cast<int>(k)) / forms.determinant);
         batch.corner[k][j] = points[k];
     }
 }

@@ -67,7 +67,7 @@ void main() {
         if ((forms.eye[i] < 0.0lf) != odd) frontMask |= 1 << k;
         for (int j = 0; j < 3; ++j) store(record + 3 * k + j, float(projected.plane[i][j]));
 #if TETRALUX_ATTRIBUTES
-        double weight = (odd ? -forms.eye[i] : forms.eye[i]) / abs(forms.determinant);
+        double weight = (odd ? -eyeBesideFace(forms, i) : eyeBesideFace(forms, i)) / abs(forms.determinant);
         store(base + 36 + k, float(view.orthographic ? weight * abs(reference.depth) : weight));
         vertices[base + 40 + k] = attributeRows[cell][k];
 #endif

@@ -142,6 +142,25 @@ TEST(OrderFreeModes, BesideCellsAtTheEyeIsNothing) {
     }
 }
 
+TEST(VertexValues, AreRightInCellsWhoseFacesAreSeenEdgeOn) {
+    const auto field = [](const glm::dvec3& p) { return p.x * p.y + 0.3 * p.z * p.z + 0.2 * p.y; };
+    const mesh::ScalarMesh grid = boxMesh(5, field);
+    Scene scene = sceneOf(grid, smoothFunction(grid.scalarMin, grid.scalarMax, 4.0));
+    scene.settings.classification = Classification::Pre;
+    EngineOptions resident{"gl", "auto"}, tiles{"gl", "auto"};
+    resident.glPath = "resident";
+    tiles.glPath = "tiles";
+    for (const bool orthographic : {false, true}) {
+        Camera camera = cameraAt({0.5, 0.5, 3.0}, glm::dvec3(0.5), 44, 37);  // in the planes of the grid's faces
+        if (orthographic) camera.orthographicHeight = 1.3;
+        const Image exact = referenceThatShows(scene, camera);
+        for (const EngineOptions& options :
+             {EngineOptions{"cpu", "auto"}, EngineOptions{"gl", "auto"}, resident, tiles})
+            EXPECT_LE(compareImages(pictureOf(scene, camera, options), exact).max, 1e-4)
+                << options.engine << ' ' << options.glPath << (orthographic ? " parallel" : "");
+    }
+}
+
 class Integrals : public testing::TestWithParam<Mode> {};
 INSTANTIATE_TEST_SUITE_P(Both, Integrals, testing::Values(Mode::Standard, Mode::ScaleInvariant),
                          [](const auto& suite) { return modes.at(suite.param); });

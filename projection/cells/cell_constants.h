@@ -10,9 +10,8 @@ namespace tetralux::projection {
 inline constexpr double largestPlane = 1e30;
 /// Least |λ(eye)| of a face: its plane stays finite when it is seen edge-on.
 inline constexpr double leastEyeCoordinate = 1e-20, leastDeterminant = 1e-140;
-/// Least rise of the scalar within a cell that has a gradient (scene units): float holds its products with lengths, and
-/// extinction of 1e12 makes nothing of it. And what a double is divided by at least.
-inline constexpr double leastRise = 1e-20, leastDouble = 1e-307;
+/// Scalars (scene units) that differ by less say nothing of a gradient in float; and the least float that one becomes.
+inline constexpr double leastKeptRise = 1e-20, leastFloatGradient = 2e-38;
 /// Beyond every pixel that there is.
 inline constexpr double unboundedPixel = 1e300;
 /// Least |depth| of an orthographic view's reference point.

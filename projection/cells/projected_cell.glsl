@@ -96,7 +96,7 @@ TETRALUX_CELL_FUNCTION void coordinatesAt(TETRALUX_CELL_IN(CellForms) forms, TET
 struct ProjectedCell {
     wide plane[4][3];
     wide scalar, scalarPerX, scalarPerY, scalarPerInverseDepth;
-    Triple gradient;  // of the scalar in the space of CameraPoint; of tiny ones the direction only (gradientFactor)
+    Triple gradient;  // of the scalar in the space of CameraPoint
 };
 
 // What corners 1, 2 and 3 have more than corner 0.
@@ -106,13 +106,6 @@ TETRALUX_CELL_FUNCTION Triple riseOf(const wide s[4]) { return Triple(s[1] - s[0
 // agree; those of scene scalars are not.
 TETRALUX_CELL_FUNCTION Triple sceneRise(TETRALUX_CELL_IN(Triple) rise, wide scalarScale) {
     return Triple(rise.x / scalarScale, rise.y / scalarScale, rise.z / scalarScale);
-}
-
-// Which way the scalar rises counts for silhouettes and light however little it does: by this a gradient is made so
-// long that float holds it. No rise stays none.
-TETRALUX_CELL_FUNCTION wide gradientFactor(TETRALUX_CELL_IN(Triple) rise) {
-    wide least = wide(leastRise), most = max(max(abs(rise.x), abs(rise.y)), abs(rise.z));
-    return select(most < least, least / max(most, wide(leastDouble)), wide(1.0));
 }
 
 // `rise`: riseOf(s), or sceneRise of the field's own.
@@ -147,6 +140,5 @@ TETRALUX_CELL_FUNCTION ProjectedCell projectCell(TETRALUX_CELL_IN(CellForms) for
     wide alongDepth = orthographic ? cell.gradient.z
                                    : cell.gradient.x * reference.imageX + cell.gradient.y * reference.imageY + cell.gradient.z;
     cell.scalarPerInverseDepth = -inverseDepthToDepth * alongDepth;
-    cell.gradient = gradientFactor(rise) * cell.gradient;
     return cell;
 }

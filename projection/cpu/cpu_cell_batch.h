@@ -142,7 +142,8 @@ enum class GradientParts { None, Magnitude, All };
 /// over how much they differ, 3e-5 at most where this is false.
 HWY_INLINE bool nearlyFlat(hn::Vec<HalfFloatTag> low, hn::Vec<HalfFloatTag> high) {
     const HalfFloatTag half;
-    const auto few = hn::Max(hn::Mul(high, hn::Set(half, 1.0f / 512)), hn::Set(half, static_cast<float>(leastRise)));
+    const auto few =
+        hn::Max(hn::Mul(high, hn::Set(half, 1.0f / 512)), hn::Set(half, static_cast<float>(leastKeptRise)));
     return !hn::AllFalse(half, hn::Lt(hn::Sub(high, low), few));
 }
 
@@ -237,7 +238,8 @@ HWY_INLINE bool setUpLanes(const TileFrame& frame, int tileX, int tileY, const S
         const wide gx = cell.gradient.x * inverse, gy = (cell.gradient.y - lean * cell.gradient.x) * inverseRow,
                    gz = cell.gradient.z;
         const wide magnitude = sqrt(gx * gx + gy * gy + gz * gz);
-        storeFloats(magnitude, &batch.gradient[j]);
+        // what is a gradient in double is one in float
+        storeFloats(select(magnitude > zero, max(magnitude, wide(leastFloatGradient)), zero), &batch.gradient[j]);
         if constexpr (gradients == GradientParts::Magnitude) return special;
         const wide scale = select(magnitude > zero, wide(1.0) / magnitude, zero);
         storeFloats(gx * scale, &batch.normal[0][j]);

@@ -106,7 +106,7 @@ void setUpCellAtEye(const TileFrame& frame, int tileX, int tileY, const std::int
     batch.normal[0][j] = static_cast<float>(gx * scale);
     batch.normal[1][j] = static_cast<float>(gy * scale);
     batch.normal[2][j] = static_cast<float>(gz * scale);
-    batch.gradient[j] = static_cast<float>(magnitude);
+    batch.gradient[j] = static_cast<float>(magnitude > 0 ? std::max(magnitude, leastFloatGradient) : 0.0);
     for (std::size_t k = 0; k < 4; ++k) {
         batch.eyeWeight[k][j] = static_cast<float>(eyeBesideFace(forms, static_cast<int>(k)) / forms.determinant);
         batch.corner[k][j] = points[k];

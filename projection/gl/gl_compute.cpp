@@ -23,18 +23,12 @@ std::vector<std::string_view> afterCommon(std::vector<std::string_view> files) {
 }  // namespace
 
 GlDefines computeDefines(GlDefines defines) {
-    const std::pair<const char*, double> constants[] = {{"largestPlane", largestPlane},
-                                                        {"leastEyeCoordinate", leastEyeCoordinate},
-                                                        {"leastDeterminant", leastDeterminant},
-                                                        {"unboundedPixel", unboundedPixel},
-                                                        {"unboundedKey", unboundedPixel},
-                                                        {"leastDepth", leastDepth},
-                                                        {"nearestDepthShare", nearestDepthShare},
-                                                        {"centroidDepthShare", centroidDepthShare},
-                                                        {"sharpestCorner", sharpestCorner},
-                                                        {"farthestCorner", farthestCorner},
-                                                        {"leastRise", leastRise},
-                                                        {"leastDouble", leastDouble}};
+    const std::pair<const char*, double> constants[] = {
+        {"largestPlane", largestPlane},           {"leastEyeCoordinate", leastEyeCoordinate},
+        {"leastDeterminant", leastDeterminant},   {"unboundedPixel", unboundedPixel},
+        {"unboundedKey", unboundedPixel},         {"leastDepth", leastDepth},
+        {"nearestDepthShare", nearestDepthShare}, {"centroidDepthShare", centroidDepthShare},
+        {"sharpestCorner", sharpestCorner},       {"farthestCorner", farthestCorner}};
     for (const auto& [name, value] : constants) defines.set(name, fmt::format("{:.17e}lf", value));
     defines.set("TETRALUX_GROUP", fmt::format("{}u", glGroup));
     defines.set("TETRALUX_SORT_BLOCK", fmt::format("{}u", glSortBlock));
